@@ -1,0 +1,63 @@
+"""What every sample of an attitude says about itself: the bits, their names, their sentences, and the rule for *valid*."""
+
+from __future__ import annotations
+
+from enum import IntFlag
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Flag(IntFlag):
+    """One bit per fact about a sample; several may hold at once."""
+
+    INITIALISING = 1 << 0
+    GYR_MISSING = 1 << 1
+    ACC_MISSING = 1 << 2
+    MAG_MISSING = 1 << 3
+    TIME_DISORDER = 1 << 4
+    GAP = 1 << 5
+    LOST = 1 << 6
+    RESET = 1 << 7
+    SILENT = 1 << 8
+    REST = 1 << 9
+    ACC_DOUBTED = 1 << 10
+    CORRECTION_FORCED = 1 << 11
+
+
+SENTENCES: dict[Flag, str] = {
+    Flag.INITIALISING: "no attitude yet: no usable accelerometer sample so far",
+    Flag.GYR_MISSING: "no gyroscope sample: predicted with the last rate",
+    Flag.ACC_MISSING: "no accelerometer sample for a while: the inclination rests on the gyroscope alone",
+    Flag.MAG_MISSING: "no magnetometer sample for a while: the heading rests on the gyroscope alone",
+    Flag.TIME_DISORDER: "time stamp missing or not after the one before: nothing predicted",
+    Flag.GAP: "gap in the time stamps: the motion inside it is unknown",
+    Flag.LOST: "the rotation was not measured for too long: the attitude is unknown",
+    Flag.RESET: "started anew from the accelerometer and magnetometer, with the bias it had",
+    Flag.SILENT: "no sample has arrived in time: the attitude now is unknown",
+    Flag.REST: "at rest: the gyroscope's bias is being measured",
+    Flag.ACC_DOUBTED: "specific force far from gravity: the accelerometer counts less",
+    Flag.CORRECTION_FORCED: "the correction stood out from its history: the preset gain was forced",
+}
+
+# An attitude that carries one of these is not to be acted on; everything else is a remark.
+INVALID: int = int(Flag.INITIALISING | Flag.LOST | Flag.SILENT)
+
+# Kernels see plain integers.
+INITIALISING = int(Flag.INITIALISING)
+GYR_MISSING = int(Flag.GYR_MISSING)
+ACC_MISSING = int(Flag.ACC_MISSING)
+MAG_MISSING = int(Flag.MAG_MISSING)
+TIME_DISORDER = int(Flag.TIME_DISORDER)
+GAP = int(Flag.GAP)
+LOST = int(Flag.LOST)
+RESET = int(Flag.RESET)
+SILENT = int(Flag.SILENT)
+REST = int(Flag.REST)
+ACC_DOUBTED = int(Flag.ACC_DOUBTED)
+CORRECTION_FORCED = int(Flag.CORRECTION_FORCED)
+
+
+def valid(flags: NDArray[np.uint32]) -> NDArray[np.bool_]:
+    """Whether the attitude may be acted on, (n,) bool: none of the bits of :data:`INVALID` is set."""
+    return (flags & np.uint32(INVALID)) == 0

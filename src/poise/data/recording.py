@@ -1,0 +1,220 @@
+"""Recording: what the sensors said, in SI units, as one table of gyroscope instants."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from poise.data import axes
+from poise.data.attitude import BIAS, QUAT, RATE, Attitude
+from poise.errors import RecordingError
+from poise.math import arrays
+
+Floats = NDArray[np.float64]
+
+STANDARD_GRAVITY = 9.80665
+_SLOWEST = 0.5  # s: no gyroscope is read less often; a larger median step means stamps in another unit
+_UNITS_OF_TIME = ((1e-3, "milliseconds", 1e3), (1e-6, "microseconds", 1e6), (1e-9, "nanoseconds", 1e9))
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """Inertial samples over time; rows are gyroscope instants, in the order they arrived.
+
+    Give arrays as they come: lists, any number type, NaN where a sensor has no sample, uneven stamps. The body frame is
+    the sensor's own, right-handed. A slower sensor stands in the rows that follow its own stamps and is NaN elsewhere
+    (:meth:`from_sensors` does that); never repeat its last value.
+
+    Raises :class:`RecordingError` where shapes, lengths or the unit of time cannot be right.
+    """
+
+    time: Floats
+    """(n,) s, any origin"""
+    gyr: Floats
+    """(n, 3) rad/s"""
+    acc: Floats
+    """(n, 3) m/s², specific force: at rest +9.81 along up"""
+    mag: Floats = None  # type: ignore[assignment]  # becomes NaN: a recording without a magnetometer
+    """(n, 3) µT (or any unit: only the direction counts)"""
+    acc_age: Floats = None  # type: ignore[assignment]
+    """(n,) s from the accelerometer's own instant to the row's; 0 if not given"""
+    mag_age: Floats = None  # type: ignore[assignment]
+    """(n,) s from the magnetometer's own instant to the row's; 0 if not given"""
+    truth: Attitude | None = None
+    """a reference attitude on the same rows"""
+    moving: NDArray[np.bool_] | None = None
+    """(n,) the rows whose error counts"""
+    gravity: float = STANDARD_GRAVITY
+    """m/s²"""
+    name: str = ""
+    source: str = ""
+    source_hash: str = ""
+    notes: tuple[str, ...] = ()
+    """what a reader had to say about the file"""
+
+    def __post_init__(self) -> None:
+        time = _numbers("time", self.time)
+        if time.ndim != 1:
+            raise RecordingError(f"time: expected (n,) seconds, found shape {time.shape}")
+        n = len(time)
+        values: dict[str, Any] = {"time": time}
+        for name in ("gyr", "acc", "mag"):
+            values[name] = _rows(name, getattr(self, name), (n, 3), np.nan)
+        for name in ("acc_age", "mag_age"):
+            values[name] = _rows(name, getattr(self, name), (n,), 0.0)
+        if self.moving is not None:
+            values["moving"] = _rows("moving", self.moving, (n,), 0.0).astype(bool)
+        if self.truth is not None and len(self.truth) != n:
+            raise RecordingError(f"truth: expected {n} rows like time, found {len(self.truth)}")
+        if not 1.0 < self.gravity < 30.0:
+            raise RecordingError(f"gravity: expected about 9.8 m/s², found {self.gravity}")
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+        _check_unit_of_time(time)
+
+    @classmethod
+    def at_rate(cls, rate: float, gyr: ArrayLike, acc: ArrayLike, mag: ArrayLike | None = None, **facts: Any) -> Recording:
+        """A recording of evenly spaced samples, *rate* per second, starting at 0 s."""
+        if not (np.isfinite(rate) and rate > 0):
+            raise RecordingError(f"rate: expected samples per second above 0, found {rate}")
+        time = np.arange(len(np.asarray(gyr))) / float(rate)
+        return cls(time=time, gyr=gyr, acc=acc, mag=mag, **facts)  # type: ignore[arg-type]
+
+    @classmethod
+    def from_sensors(
+        cls,
+        gyr: tuple[ArrayLike, ArrayLike],
+        acc: tuple[ArrayLike, ArrayLike],
+        mag: tuple[ArrayLike, ArrayLike] | None = None,
+        **facts: Any,
+    ) -> Recording:
+        """A recording from sensors with clocks of their own, each given as (time (n,), values (n, 3)).
+
+        Every sample goes, exactly once, to the first gyroscope instant at or after its stamp, and its age is kept.
+        Several that meet in one row are averaged, values and ages alike; what comes after the last row is left out.
+        """
+        time = _numbers("gyr time", gyr[0])
+        if len(time) and not (np.diff(time) > 0).all():
+            raise RecordingError("gyr time: must rise from row to row where sensors are merged by their stamps")
+        merged: dict[str, Any] = {}
+        for name, sensor in (("acc", acc), ("mag", mag)):
+            if sensor is not None:
+                merged[name], merged[f"{name}_age"] = _place(name, time, *sensor)
+        return cls(time=time, gyr=gyr[1], **merged, **facts)  # type: ignore[arg-type]
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def __getitem__(self, rows: slice | NDArray[Any]) -> Recording:
+        """The same recording, fewer rows: a slice, a mask or indices."""
+        if not isinstance(rows, slice):
+            rows = np.atleast_1d(rows)
+        cut = {name: getattr(self, name)[rows] for name in ("time", "gyr", "acc", "mag", "acc_age", "mag_age")}
+        cut |= {name: getattr(self, name)[rows] for name in ("truth", "moving") if getattr(self, name) is not None}
+        return replace(self, **cut)
+
+    def between(self, start: float, end: float) -> Recording:
+        """The rows with start ≤ time < end, s."""
+        return self[(self.time >= start) & (self.time < end)]
+
+    def remap(self, new_axes: str | ArrayLike) -> Recording:
+        """The same motion with the sensor's axes renamed or turned; the reference follows.
+
+        *new_axes* are words, ``"y -x z"``: the new x is the sensor's y, the new y its −x; or a mounting rotation, a
+        (3, 3) matrix with v_new = M v_sensor. Raises :class:`RecordingError` for what is not a right-handed rotation.
+        """
+        turn = axes.rotation_matrix(new_axes)
+        truth = self.truth
+        if truth is not None:
+            table = truth.table.copy()
+            table[:, QUAT] = arrays.multiply(truth.quat, arrays.conjugate(arrays.from_matrix(turn)))
+            table[:, RATE], table[:, BIAS] = truth.rate @ turn.T, truth.bias @ turn.T
+            truth = replace(truth, table=table)
+        turned = {name: getattr(self, name) @ turn.T for name in ("gyr", "acc", "mag")}
+        return replace(self, **turned, truth=truth)
+
+    @property
+    def rate_hz(self) -> float:
+        """Samples per second: one over the median step between stamps; NaN where there are none."""
+        steps = np.diff(self.time)
+        steps = steps[np.isfinite(steps) & (steps > 0)]
+        return float(1.0 / np.median(steps)) if len(steps) else float("nan")
+
+    @property
+    def duration(self) -> float:
+        """s from the first to the last stamp."""
+        known = self.time[np.isfinite(self.time)]
+        return float(known[-1] - known[0]) if len(known) else 0.0
+
+    @property
+    def has_mag(self) -> bool:
+        """Whether the magnetometer says anything at all (zeros are silence)."""
+        return bool((np.isfinite(self.mag).all(axis=1) & (self.mag != 0).any(axis=1)).any())
+
+    def __repr__(self) -> str:
+        sensors = [name for name in ("gyr", "acc", "mag") if np.isfinite(getattr(self, name)).any()]
+        reference = ", truth" if self.truth is not None else ""
+        return (
+            f"Recording({self.name or 'unnamed'}: {len(self)} rows, {self.duration:.1f} s at {self.rate_hz:.1f} Hz, "
+            f"{' '.join(sensors)}{reference})"
+        )
+
+
+FIELDS = tuple(field.name for field in fields(Recording))
+
+
+def _numbers(name: str, values: Any) -> Floats:
+    try:
+        if np.ma.isMaskedArray(values):
+            values = np.ma.filled(values.astype(float), np.nan)
+        array = np.asarray(values)
+        if array.dtype.kind in "mMcSU" or array.dtype.kind == "O" and not _holds_numbers(array):
+            raise TypeError(f"its type is {array.dtype}")
+        return np.array(array, dtype=np.float64, order="C")
+    except (TypeError, ValueError) as problem:
+        raise RecordingError(f"{name}: expected numbers, found something else ({problem})") from None
+
+
+def _holds_numbers(array: NDArray[Any]) -> bool:
+    return all(item is None or isinstance(item, (int, float, np.number)) for item in array.ravel())
+
+
+def _rows(name: str, values: Any, shape: tuple[int, ...], absent: float) -> Floats:
+    if values is None:
+        return np.full(shape, absent)
+    array = _numbers(name, values)
+    if array.size == 0 and shape[0] == 0:
+        return np.empty(shape)
+    if array.shape != shape:
+        hint = "; transpose it" if array.shape == shape[::-1] and len(shape) == 2 else ""
+        raise RecordingError(f"{name}: expected shape {shape} to go with {shape[0]} time stamps, found {array.shape}{hint}")
+    return array
+
+
+def _check_unit_of_time(time: Floats) -> None:
+    steps = np.diff(time)
+    steps = steps[np.isfinite(steps) & (steps > 0)]
+    if len(steps) < 2 or (step := float(np.median(steps))) <= _SLOWEST:
+        return
+    factor, unit, per_second = min(_UNITS_OF_TIME, key=lambda u: abs(np.log(step * u[0] / 0.01)))
+    raise RecordingError(
+        f"time: the median step is {step:g} s, which no gyroscope has; stamps in {unit}? "
+        f"Multiply them by {factor:g} (that gives {per_second / step:.1f} samples per second)"
+    )
+
+
+def _place(name: str, rows: Floats, time: ArrayLike, values: ArrayLike) -> tuple[Floats, Floats]:
+    stamps = _numbers(f"{name} time", time)
+    samples = _rows(name, values, (len(stamps), 3), np.nan)
+    usable = np.isfinite(stamps) & np.isfinite(samples).all(axis=1)
+    row = np.searchsorted(rows, stamps, side="left")
+    usable &= row < len(rows)
+    row, stamps, samples = row[usable], stamps[usable], samples[usable]
+    count = np.bincount(row, minlength=len(rows)).astype(float)
+    with np.errstate(invalid="ignore"):
+        placed = np.column_stack([np.bincount(row, samples[:, i], len(rows)) / count for i in range(3)])
+        age = np.bincount(row, rows[row] - stamps, len(rows)) / count
+    return placed, np.where(count > 0, age, 0.0)

@@ -1,0 +1,203 @@
+"""AdaptiveGain: gyroscope correction with a gain that follows the motion.
+
+Source: "Attitude estimation method and device for a moving object from gyroscope and accelerometer data", 20 claims, no
+number in the text. Steps are numbered as in ``docs/methods/adaptive-gain.md``, which derives them.
+
+Departures from the print:
+
+- Claim 11's first measure of deviation reads |w| − |w_c| or |w − w_c|: the latter here.
+- Its third sums signed differences of Euler angles, which cancel: absolute differences here.
+- Claims 8 and 9 compare with a mean and a standard deviation without saying over what: here over the last *window*
+  samples, recursively, after *min_count* of them and with a floor for the deviation.
+- The correction is w + K e with e = measured × predicted; the other sign settles upside down.
+"""
+
+from __future__ import annotations
+
+from math import exp as exponential
+from math import inf, pi
+from typing import Annotated, Literal, NamedTuple, Self
+
+from poise.data.flags import CORRECTION_FORCED
+from poise.data.packet import Output, Sample
+from poise.math.compiled import compiled
+from poise.math.quaternions import (
+    Quat,
+    angles_from,
+    attitude_of,
+    exp,
+    normalize,
+    north_in_body,
+    north_of,
+    up_in_body,
+    wrapped,
+)
+from poise.math.vectors import ABSENT, ZERO, Vec3, cross, dot, norm, present, unit, within
+
+_MEAN_TIME = 0.5  # s, time constant of the means that stillness is judged against
+
+
+class State(NamedTuple):
+    attitude: Quat  # q
+    bias: Vec3  # always zero: the method has none of its own
+    gravity: float  # g_ref, m/s²
+    rested: float  # s of rest that g_ref is the mean of
+    mean_acc: Vec3  # short-term means that stillness is judged against
+    mean_mag: Vec3
+    still: float  # s since one of the chosen sensors last moved
+    mean: float  # µ of the deviation
+    variance: float  # s² of the deviation
+    count: int
+    forced: bool
+
+
+class AdaptiveGain(NamedTuple):
+    """Complementary filter on the rate: the gain falls back to a preset constant where the object accelerates."""
+
+    k_rest: Annotated[float, "1/s", "correction gain without motion acceleration"] = 0.5
+    k_fast: Annotated[float, "1/s", "preset gain where the motion acceleration exceeds the threshold"] = 0.1
+    threshold: Annotated[float, "m/s²", "motion acceleration above which k_fast holds"] = 1.0
+    gain: Annotated[Literal["linear", "gaussian"], "", "how the gain goes from k_rest to k_fast"] = "linear"
+    gain_width: Annotated[float, "m/s²", "width of the gaussian gain"] = 0.5
+    rest_sensors: Annotated[
+        Literal["acc", "gyr", "mag", "acc+gyr", "acc+mag", "gyr+mag", "acc+gyr+mag"], "", "what must be still for rest"
+    ] = "acc+gyr"
+    rest_acc: Annotated[float, "m/s²", "largest distance of a still specific force from its mean"] = 0.5
+    rest_gyr: Annotated[float, "rad/s", "largest rate at rest"] = 0.05
+    rest_mag: Annotated[float, "rad", "largest angle of a still field from its mean"] = 0.02
+    rest_time: Annotated[float, "s", "how long all chosen sensors must be still"] = 0.5
+    deviation: Annotated[
+        Literal["rate-norm", "rate-cross", "euler-sum"], "", "measure δ between a step with w and one with w_c"
+    ] = "rate-norm"
+    check: Annotated[
+        Literal["relative", "absolute", "off"], "", "|δ − µ| > n·s (claim 9), δ − µ > a threshold (claim 8), or neither"
+    ] = "relative"
+    check_factor: Annotated[float, "", "n of the relative check"] = 3.0
+    check_threshold: Annotated[float, "rad/s, rad²/s² or rad", "threshold of the absolute check"] = 0.1
+    check_window: Annotated[int, "samples", "how far back µ and s reach", (1, inf)] = 500
+    check_min_count: Annotated[int, "samples", "how many deviations must be known before any is judged"] = 100
+    check_floor: Annotated[float, "rad/s, rad²/s² or rad", "smallest s that is believed"] = 0.01
+    k_forced: Annotated[float, "1/s", "preset gain where the deviation stands out"] = 0.1
+    declination: Annotated[float, "rad", "true heading = magnetic heading + D, east positive", (-pi, pi)] = 0.0
+
+    @classmethod
+    def as_printed(cls) -> Self:
+        """The print's choices: claim 8's absolute check on claim 11's first measure, the linear gain."""
+        return cls(gain="linear", deviation="rate-norm", check="absolute")
+
+    def start(self, sample: Sample, bias: Vec3) -> State:
+        attitude = attitude_of(sample.acc, sample.mag, self.declination)
+        mean_mag = unit(sample.mag) if present(sample.mag) else ZERO
+        return State(attitude, bias, 9.80665, 0.0, sample.acc, mean_mag, 0.0, 0.0, 0.0, 0, False)
+
+    def step(self, state: State, sample: Sample) -> State:
+        q, T, f, m = state.attitude, sample.dt, sample.acc, sample.mag
+        w = sample.gyr - state.bias
+        gravity, rested, still = state.gravity, state.rested, state.still
+        mean_acc, mean_mag = state.mean_acc, state.mean_mag
+        mean, variance, count, forced = state.mean, state.variance, state.count, False
+        w_c = w
+        if present(f):
+            predicted = q * exp(T * w)
+            up, length = up_in_body(predicted), norm(f)
+
+            # 1. Gravity: the mean of |f| over all rest so far, where the gyroscope's attitude sees up
+            smooth = T / (_MEAN_TIME + T)
+            mean_acc = mean_acc + smooth * (f - mean_acc)
+            if _uses_mag(self) and present(m):
+                mean_mag = mean_mag + smooth * (unit(m) - mean_mag)
+            still = still + T if is_still(self, w, f, m, mean_acc, mean_mag) else 0.0
+            if still >= self.rest_time:
+                rested += T
+                gravity += (length - gravity) * T / rested
+            f_g = gravity * up
+
+            # 2. Motion acceleration, 3. correction gain
+            a_m = f - f_g
+            K = correction_gain(self, norm(a_m))
+
+            # 4. Correction vector: measured × predicted, up and north
+            up_measured = f / length
+            e = (sample.acc_dt / T) * cross(up_measured, up)
+            if present(m):
+                north_measured = north_of(up_measured, m, self.declination)
+                e = e + (sample.mag_dt / T) * cross(north_measured, north_in_body(predicted))
+
+            # 5. Calibrated rate
+            w_c = w + K * e
+
+            # 6. Deviation check against the mean and standard deviation so far
+            delta = deviation(self, q, w, w_c, T)
+            if count >= self.check_min_count and stands_out(self, delta, mean, variance):
+                forced = True
+                w_c = w + self.k_forced * e
+            count = min(count + 1, self.check_window)
+            change = delta - mean
+            mean += change / count
+            variance += (change * (delta - mean) - variance) / count
+
+        # 7. Integrate
+        q = normalize(q * exp(T * w_c))
+        return State(q, state.bias, gravity, rested, mean_acc, mean_mag, still, mean, variance, count, forced)
+
+    def output(self, state: State, sample: Sample) -> Output:
+        flags = CORRECTION_FORCED if state.forced else 0
+        return Output(sample.dt, state.attitude, sample.gyr - state.bias, state.bias, ABSENT, ABSENT, flags)
+
+
+@compiled
+def is_still(method: AdaptiveGain, w: Vec3, f: Vec3, m: Vec3, mean_acc: Vec3, mean_mag: Vec3) -> bool:
+    """Whether every chosen sensor is still; one without a sample now does not object."""
+    if _uses_gyr(method) and dot(w, w) > method.rest_gyr**2:
+        return False
+    if _uses_acc(method) and not within(f - mean_acc, method.rest_acc):
+        return False
+    return not (_uses_mag(method) and present(m) and not within(unit(m) - mean_mag, method.rest_mag))
+
+
+@compiled
+def _uses_acc(method: AdaptiveGain) -> bool:
+    return not (method.rest_sensors == "gyr" or method.rest_sensors == "mag" or method.rest_sensors == "gyr+mag")
+
+
+@compiled
+def _uses_gyr(method: AdaptiveGain) -> bool:
+    return not (method.rest_sensors == "acc" or method.rest_sensors == "mag" or method.rest_sensors == "acc+mag")
+
+
+@compiled
+def _uses_mag(method: AdaptiveGain) -> bool:
+    return not (method.rest_sensors == "acc" or method.rest_sensors == "gyr" or method.rest_sensors == "acc+gyr")
+
+
+@compiled
+def correction_gain(method: AdaptiveGain, a: float) -> float:
+    """K over the motion acceleration a = |a_m|: k_rest at 0, the preset k_fast above the threshold."""
+    if a > method.threshold:
+        return method.k_fast
+    if method.gain == "linear":
+        return method.k_rest + (method.k_fast - method.k_rest) * a / method.threshold
+    ratio = a / method.gain_width
+    return method.k_fast + (method.k_rest - method.k_fast) * exponential(-0.5 * ratio * ratio)
+
+
+@compiled
+def deviation(method: AdaptiveGain, q: Quat, w: Vec3, w_c: Vec3, T: float) -> float:
+    """δ between one step with w and one with w_c from the same q (claim 11)."""
+    if method.deviation == "rate-norm":
+        return norm(w - w_c)
+    if method.deviation == "rate-cross":
+        return norm(cross(w, w_c))
+    a, b = angles_from(q * exp(T * w)), angles_from(q * exp(T * w_c))
+    return abs(wrapped(a.pitch - b.pitch)) + abs(wrapped(a.roll - b.roll)) + abs(wrapped(a.heading - b.heading))
+
+
+@compiled
+def stands_out(method: AdaptiveGain, delta: float, mean: float, variance: float) -> bool:
+    """Claim 8: δ − µ above a threshold; claim 9: |δ − µ| above n·s."""
+    if method.check == "absolute":
+        return delta - mean > method.check_threshold
+    if method.check == "relative":
+        least = method.check_factor**2 * max(variance, method.check_floor**2)
+        return (delta - mean) ** 2 > least
+    return False

@@ -1,0 +1,395 @@
+"""The one loop: `estimate` over a recording and `Stream` over packets run `advance`, and so give the same bits."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from math import isfinite, nan
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from poise.data.attitude import BIAS, COLUMNS, QUAT, Attitude, HeadingReference, Provenance
+from poise.data.flags import SILENT
+from poise.data.packet import Packet, Sample
+from poise.data.recording import Recording
+from poise.errors import MethodError, RecordingError, StateError
+from poise.estimators.guard import Guard
+from poise.estimators.parameters import as_dict, prepared
+from poise.estimators.protocol import output, resting_sample, start, step
+from poise.estimators.rest_bias import RestBias
+from poise.math import arrays
+from poise.math.compiled import compiled, entry, memory_class
+from poise.math.quaternions import Quat, inner
+from poise.math.vectors import Vec3
+
+Floats = NDArray[np.float64]
+
+# Columns of the buffer that the loop reads: time, gyr, acc, mag, acc_age, mag_age.
+_TIME, _GYR, _ACC, _MAG, _ACC_AGE, _MAG_AGE, _WIDTH = 0, 1, 4, 7, 10, 11, 12
+# What the loop remembers beside the method's state: the clock, whether the next row is the first, the quaternion it
+# wrote last, and the turn about up that `reset_heading` asked for.
+_CLOCK, _FIRST, _LAST, _TURN, _ASIDE = 0, 1, 2, 6, 10
+_BLOCK = 500_000  # rows between two reports of progress
+
+_Memory = memory_class("Memory", ["method", "state"])
+
+
+@compiled
+def _vector(rows: Floats, i: int, column: int) -> Vec3:
+    return Vec3(rows[i, column], rows[i, column + 1], rows[i, column + 2])
+
+
+@compiled
+def _write(table: Floats, i: int, column: int, v: Vec3) -> None:
+    table[i, column], table[i, column + 1], table[i, column + 2] = v.x, v.y, v.z
+
+
+@compiled
+def _sample(rows: Floats, i: int, dt: float) -> Sample:
+    gyr, acc, mag = _vector(rows, i, _GYR), _vector(rows, i, _ACC), _vector(rows, i, _MAG)
+    return Sample(dt, gyr, acc, mag, rows[i, _ACC_AGE], rows[i, _MAG_AGE], dt, dt)
+
+
+@entry
+def _begin(method: Any, rows: Floats, bias: Vec3) -> Any:
+    """A method's memory, started from the first row."""
+    return _Memory(method, start(method, _sample(rows, 0, 0.0), bias))
+
+
+@entry
+def _begin_at(method: Any, attitude: Quat, declination: float, bias: Vec3) -> Any:
+    """A method's memory, started at an attitude."""
+    return _Memory(method, start(method, resting_sample(attitude, declination), bias))
+
+
+@entry
+def _recall(method: Any, state: Any) -> Any:
+    return _Memory(method, state)
+
+
+@entry
+def _state_of(memory: Any) -> Any:
+    return memory.state
+
+
+@entry
+def advance(memory: Any, aside: Floats, rows: Floats, table: Floats, flags: NDArray[np.uint32]) -> None:
+    """Step the method in *memory* over *rows* and write what it says into *table* and *flags*."""
+    method, state = memory.method, memory.state
+    clock, first = aside[_CLOCK], aside[_FIRST] != 0.0
+    last = Quat(aside[_LAST], aside[_LAST + 1], aside[_LAST + 2], aside[_LAST + 3])
+    turn = Quat(aside[_TURN], aside[_TURN + 1], aside[_TURN + 2], aside[_TURN + 3])
+    for i in range(len(rows)):
+        time = rows[i, _TIME]
+        sample = _sample(rows, i, 0.0 if first else time - clock)
+        if not first:
+            state = step(method, state, sample)
+        first = False
+        if isfinite(time):
+            clock = time
+        out = output(method, state, sample)
+        q = out.attitude
+        if turn.z != 0.0:
+            q = turn * q
+        if inner(q, last) < 0.0:  # q and −q are one attitude: stay on the side we were
+            q = -q
+        if isfinite(q.w):
+            last = q
+        table[i, 0], table[i, 1], table[i, 2], table[i, 3] = q.w, q.x, q.y, q.z
+        _write(table, i, 4, out.rate)
+        _write(table, i, 7, out.bias)
+        _write(table, i, 10, out.sigma)
+        _write(table, i, 13, out.bias_sigma)
+        flags[i] = out.flags
+    memory.state = state
+    aside[_CLOCK], aside[_FIRST] = clock, 0.0
+    aside[_LAST], aside[_LAST + 1], aside[_LAST + 2], aside[_LAST + 3] = last.w, last.x, last.y, last.z
+
+
+class Stream:
+    """A method running live: give it packets as they come, one sample or many, and get their attitudes.
+
+    The answers are, bit for bit, those of :func:`estimate` over the same samples, however they are split into packets.
+
+    *start* is an attitude to start at (an :class:`Attitude`, whose first known row counts, or w x y z, body to ENU); by
+    default the first usable accelerometer and magnetometer samples decide. *bias* (rad/s) is the gyroscope's, where it
+    is known. *guard* and *rest_bias* switch the wrappers off; a method given inside a ``Guard`` is taken as it is.
+    """
+
+    def __init__(
+        self,
+        method: Any,
+        start: Attitude | ArrayLike | None = None,
+        *,
+        bias: ArrayLike = (0.0, 0.0, 0.0),
+        guard: bool = True,
+        rest_bias: bool = True,
+        silence: float = 0.05,
+    ) -> None:
+        self.method = method
+        self._running = prepared(_wrapped(method, guard, rest_bias))
+        self._declination = float(getattr(_core(method), "declination", 0.0))
+        self._provenance = Provenance(_name(method), as_dict(self._running))
+        self._start = None if start is None else _start_quat(start)
+        self._bias = Vec3(*_three("bias", bias))
+        self._silence = silence
+        self._memory: Any = None
+        self._row = np.empty((1, _WIDTH))
+        self._aside = np.array([nan, 1.0, 1.0, 0, 0, 0, 1.0, 0, 0, 0])
+        self._heading: HeadingReference = "arbitrary"
+        self._latest: Attitude | None = None
+
+    def update(self, packet: Packet) -> Attitude:
+        """The attitudes after the samples of *packet*, one row each.
+
+        Raises :class:`RecordingError` for a packet whose shapes do not fit; the stream goes on as if it had not come.
+        """
+        rows = self._rows(packet)
+        return self._advance(rows, rows[:, _TIME].copy())
+
+    def _advance(self, rows: Floats, time: Floats) -> Attitude:
+        table = np.empty((len(rows), COLUMNS))
+        flags = np.empty(len(rows), np.uint32)
+        if len(rows):
+            if self._memory is None:
+                self._begin(rows)
+            advance(self._memory, self._aside, rows, table, flags)
+        attitude = Attitude(time, table, flags, self._heading, "enu", self._provenance)
+        if len(rows):
+            self._latest = attitude
+        return attitude
+
+    def _begin(self, rows: Floats) -> None:
+        if self._start is None:
+            self._memory = _begin(self._running, rows, self._bias)
+        else:
+            self._memory = _begin_at(self._running, self._start, self._declination, self._bias)
+            self._aside[_LAST : _LAST + 4] = self._start
+
+    def check(self, now: float) -> Attitude:
+        """The attitude at *now* (s, the packets' clock) without a new sample, one row; for a timer.
+
+        When the last sample is older than *silence* (0.05 s unless told) the row is flagged SILENT and not valid: the
+        attitude it holds is the last one known.
+        """
+        if self._latest is None:
+            row = Attitude.of([now], np.full((1, 4), nan))
+            row.flags[:] |= np.uint32(SILENT)
+            return row
+        row = self._latest[-1:]
+        flags = row.flags.copy()
+        if not now - self._aside[_CLOCK] <= self._silence:
+            flags |= np.uint32(SILENT)
+        return replace(row, time=np.array([float(now)]), table=row.table.copy(), flags=flags)
+
+    def reset_heading(self, forward: str = "y") -> None:
+        """From now on, the direction that the body axis *forward* points to at this moment is north.
+
+        Raises :class:`StateError` where there is no attitude yet.
+        """
+        if self._latest is None or not isfinite(self._latest.quat[-1, 0]):
+            raise StateError("no attitude yet, so there is no heading to reset; feed samples first")
+        heading = float(self._latest[-1:].heading(forward)[0])
+        turn = arrays.turn_about_up(np.array(heading))
+        self._aside[_TURN : _TURN + 4] = arrays.multiply(turn, self._aside[_TURN : _TURN + 4])
+        self._aside[_LAST : _LAST + 4] = arrays.multiply(turn, self._aside[_LAST : _LAST + 4])
+        self._heading = "arbitrary"
+        self._latest = None if self._latest is None else _turned(self._latest[-1:], turn)
+
+    @property
+    def state(self) -> Any:
+        """A snapshot of the method's state, wrappers included; None before the first sample."""
+        return None if self._memory is None else _copied(_state_of(self._memory))
+
+    def save(self) -> bytes:
+        """Everything needed to go on in another process: JSON text, no pickle. See :meth:`restore`."""
+        return json.dumps(
+            {
+                "poise": "stream",
+                "method": self._identity(),
+                "state": _flat(self.state),
+                "aside": self._aside.tolist(),
+                "heading_reference": self._heading,
+                "latest": None if self._latest is None else self._latest.table[-1].tolist(),
+                "latest_flags": None if self._latest is None else int(self._latest.flags[-1]),
+            }
+        ).encode()
+
+    def restore(self, saved: bytes) -> Self:
+        """Go on where :meth:`save` was called, bit for bit; returns the stream.
+
+        Raises :class:`StateError` where *saved* is not a stream's state, or that of another method or parameter set.
+        """
+        try:
+            kept = json.loads(saved)
+            if kept["poise"] != "stream":
+                raise KeyError("poise")
+            identity, flat, aside = kept["method"], kept["state"], np.array(kept["aside"], float)
+            heading, latest, latest_flags = kept["heading_reference"], kept["latest"], kept["latest_flags"]
+            if aside.shape != (_ASIDE,) or heading not in ("true", "magnetic", "arbitrary"):
+                raise ValueError
+        except (ValueError, KeyError, TypeError) as problem:
+            raise StateError(f"not a saved stream: {problem!r}; give the bytes that Stream.save() returned") from None
+        if identity != self._identity():
+            raise StateError(
+                f"the saved stream ran {identity}, this one runs {self._identity()}; "
+                "restore it into a Stream with the same method and parameters"
+            )
+        if flat is None:
+            self._memory = None
+        else:
+            template = _begin(self._running, np.full((1, _WIDTH), nan), self._bias)
+            self._memory = _recall(self._running, _filled(_state_of(template), flat))
+        self._aside, self._heading = aside, heading
+        self._latest = None
+        if latest is not None:
+            self._latest = Attitude(
+                aside[[_CLOCK]], np.array([latest]), np.array([latest_flags], np.uint32), heading, "enu", self._provenance
+            )
+        return self
+
+    def _identity(self) -> str:
+        return f"{type(self._running).__name__}{json.dumps(as_dict(self._running), default=repr)}"
+
+    def _rows(self, packet: Packet) -> Floats:
+        time, gyr, acc, mag = packet
+        if isinstance(time, float):  # one sample: the common case live, kept short
+            row = self._row
+            row[0, _TIME] = time
+            try:
+                row[0, _GYR:_ACC] = gyr
+                row[0, _ACC:_MAG] = acc
+                row[0, _MAG:_ACC_AGE] = nan if mag is None else mag
+            except (TypeError, ValueError):
+                raise RecordingError(
+                    f"packet of one sample: expected three numbers each for gyr, acc, mag, found {gyr!r}, {acc!r}, {mag!r}"
+                ) from None
+            row[0, _ACC_AGE:] = 0.0
+            if mag is not None and self._heading == "arbitrary" and self._aside[_TURN] == 1.0:
+                self._see_mag(row)
+            return row
+        if np.ndim(time) == 0:
+            return self._rows(Packet(float(time), gyr, acc, mag))  # type: ignore[arg-type]
+        return self._filled_rows(Recording(time=time, gyr=gyr, acc=acc, mag=mag))  # type: ignore[arg-type]
+
+    def _filled_rows(self, recording: Recording) -> Floats:
+        rows = np.empty((len(recording), _WIDTH))
+        rows[:, _TIME] = recording.time
+        rows[:, _GYR:_ACC], rows[:, _ACC:_MAG] = recording.gyr, recording.acc
+        rows[:, _MAG:_ACC_AGE] = recording.mag
+        rows[:, _ACC_AGE], rows[:, _MAG_AGE] = recording.acc_age, recording.mag_age
+        if self._heading == "arbitrary" and self._aside[_TURN] == 1.0:
+            self._see_mag(rows)
+        return rows
+
+    def _see_mag(self, rows: Floats) -> None:
+        if hasattr(_core(self.method), "declination") and np.isfinite(rows[:, _MAG:_ACC_AGE]).all(axis=1).any():
+            self._heading = "true" if self._declination else "magnetic"
+
+
+def estimate(
+    method: Any,
+    recording: Recording,
+    start: Attitude | ArrayLike | None = None,
+    *,
+    bias: ArrayLike = (0.0, 0.0, 0.0),
+    guard: bool = True,
+    rest_bias: bool = True,
+    progress: Callable[[int], None] | None = None,
+) -> Attitude:
+    """The attitude after every row of *recording*, in its order, by *method* (``TwoStage()``, ``AdaptiveGain()``, …).
+
+    Arguments as for :class:`Stream`; *progress* is called with the number of rows done so far.
+    Raises :class:`RecordingError` or :class:`MethodError` where the two cannot be used.
+    """
+    if not isinstance(recording, Recording):
+        raise RecordingError(f"expected a Recording, found {type(recording).__name__}; see poise.read and poise.Recording")
+    stream = Stream(method, start, bias=bias, guard=guard, rest_bias=rest_bias)
+    n, blocks = len(recording), []
+    for first in range(0, max(n, 1), _BLOCK):
+        part = recording if n <= _BLOCK else recording[first : first + _BLOCK]
+        blocks.append(stream._advance(stream._filled_rows(part), part.time))
+        if progress is not None:
+            progress(min(first + _BLOCK, n))
+    whole = blocks[0]
+    if len(blocks) > 1:
+        table, flags = np.concatenate([b.table for b in blocks]), np.concatenate([b.flags for b in blocks])
+        whole = replace(whole, time=recording.time, table=table, flags=flags)
+    provenance = replace(whole.provenance, source=recording.source, source_hash=recording.source_hash)
+    return replace(whole, heading_reference=stream._heading, provenance=provenance)
+
+
+def _core(method: Any) -> Any:
+    """The method inside its wrappers."""
+    while isinstance(method, (Guard, RestBias)):
+        method = method.method
+    return method
+
+
+def _wrapped(method: Any, guard: bool, rest_bias: bool) -> Any:
+    prepared(method)  # a clear error about the method itself, before it is wrapped
+    if isinstance(method, Guard):
+        return method
+    if rest_bias and not isinstance(method, RestBias) and not getattr(method, "learns_bias", False):
+        method = RestBias(method)
+    return Guard(method, declination=float(getattr(_core(method), "declination", 0.0))) if guard else method
+
+
+def _name(method: Any) -> str:
+    return type(_core(method)).__name__
+
+
+def _three(name: str, values: ArrayLike) -> list[float]:
+    array = np.asarray(values, float)
+    if array.shape != (3,) or not np.isfinite(array).all():
+        raise MethodError(f"{name}: expected three finite numbers, found {values!r}")
+    return [float(v) for v in array]
+
+
+def _start_quat(start: Attitude | ArrayLike) -> Quat:
+    if isinstance(start, Attitude):
+        known = np.flatnonzero(np.isfinite(start.to("enu").quat).all(axis=1))
+        if not len(known):
+            raise RecordingError("start: the attitude given has no row that is known")
+        start = start.to("enu").quat[known[0]]
+    quat = np.asarray(start, float)
+    length = float(np.linalg.norm(quat)) if quat.shape == (4,) else nan
+    if not 0.5 < length < 2.0:
+        raise RecordingError(f"start: expected a unit quaternion w x y z (4,), found {start!r}")
+    return Quat(*(float(v) for v in quat / length))
+
+
+def _turned(row: Attitude, turn: Floats) -> Attitude:
+    table = row.table.copy()
+    table[:, QUAT] = arrays.multiply(turn, row.quat)
+    return replace(row, table=table, heading_reference="arbitrary")
+
+
+def _copied(state: Any) -> Any:
+    if isinstance(state, tuple):
+        return type(state)(*map(_copied, state))
+    return state.copy() if isinstance(state, np.ndarray) else state
+
+
+def _flat(state: Any) -> Any:
+    if isinstance(state, tuple):
+        return [_flat(part) for part in state]
+    return state.tolist() if isinstance(state, np.ndarray) else state
+
+
+def _filled(template: Any, flat: Any) -> Any:
+    """*template* with the values of *flat*, which must have its shape."""
+    try:
+        if isinstance(template, tuple):
+            parts = [_filled(part, value) for part, value in zip(template, flat, strict=True)]
+            return type(template)(*parts)
+        if isinstance(template, np.ndarray):
+            return np.array(flat, template.dtype).reshape(template.shape)
+        if isinstance(flat, (list, str)) or flat is None:
+            raise TypeError
+        return type(template)(flat)
+    except (TypeError, ValueError):
+        raise StateError("the saved state does not fit this version of the method; start the stream anew") from None

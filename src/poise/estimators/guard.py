@@ -1,0 +1,149 @@
+"""Guard: keeps what is not a measurement away from a method, bridges short losses, restarts after long ones, and says so."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, NamedTuple
+
+from poise.data.flags import (
+    ACC_MISSING,
+    GAP,
+    GYR_MISSING,
+    INITIALISING,
+    LOST,
+    MAG_MISSING,
+    RESET,
+    TIME_DISORDER,
+)
+from poise.data.packet import Output, Sample
+from poise.estimators.protocol import output, resting_sample, start, step, with_sensors
+from poise.math.compiled import compiled
+from poise.math.quaternions import IDENTITY, Quat, rotate, shortest_turn
+from poise.math.vectors import ABSENT, UP, Vec3, dot, present, unit, within
+
+
+class State(NamedTuple):
+    inner: Any
+    gyr: Vec3  # rad/s, the last one that was measured
+    started: bool  # an accelerometer sample has given an attitude
+    aligned: bool  # a magnetometer sample has given its heading
+    lost: bool  # the motion was not measured for too long: start anew when it is again
+    gyr_absent: float  # s
+    acc_absent: float
+    mag_absent: float
+    disorder: int  # rows in a row without a usable stamp
+    flags: int
+
+
+class Guard(NamedTuple):
+    """Lets only finite samples of possible size reach *method*, in time that runs forward.
+
+    A lost gyroscope sample is bridged with the last rate; after *longest_loss* without one, or a gap in the stamps that
+    long, the method starts anew from accelerometer and magnetometer and keeps the bias it had. Before the first usable
+    accelerometer sample the attitude is NaN and not valid.
+    """
+
+    method: Any
+    declination: Annotated[float, "rad", "the method's own, so that a restart keeps the heading", (-3.2, 3.2)] = 0.0
+    gap: Annotated[float, "s", "a longer step between stamps is flagged"] = 0.2
+    longest_loss: Annotated[float, "s", "without rotation for longer, the attitude is unknown"] = 1.0
+    acc_loss: Annotated[float, "s", "without accelerometer for longer, samples are flagged"] = 0.5
+    mag_loss: Annotated[float, "s", "without a magnetometer that was there before for longer, samples are flagged"] = 1.0
+    longest_disorder: Annotated[int, "rows", "without a usable stamp for more, the attitude is unknown"] = 20
+    largest_gyr: Annotated[float, "rad/s", "a larger rate per axis is no measurement"] = 200.0
+    largest_acc: Annotated[float, "m/s²", "a larger specific force per axis is no measurement"] = 5000.0
+    largest_mag: Annotated[float, "µT", "a larger field per axis is no measurement"] = 1e6
+
+    def start(self, sample: Sample, bias: Vec3) -> State:
+        clean = _cleaned(self, sample, 0.0, 0.0)
+        gyr = clean.gyr if present(clean.gyr) else bias
+        seen = present(clean.acc)
+        placeholder = resting_sample(IDENTITY, self.declination)
+        first = with_sensors(clean, gyr, clean.acc, clean.mag) if seen else with_sensors(placeholder, gyr, placeholder.acc, ABSENT)
+        inner = start(self.method, first, bias)
+        aligned = seen and present(clean.mag)
+        return State(inner, gyr, seen, aligned, False, 0.0, 0.0, 0.0, 0, 0 if seen else INITIALISING)
+
+    def step(self, state: State, sample: Sample) -> State:
+        if not sample.dt > 1e-7:  # NaN too; a noise density over no time at all would overflow
+            return _held(self, state)
+        clean = _cleaned(self, sample, state.acc_absent, state.mag_absent)
+        dt, flags = sample.dt, 0
+        gyr_absent = 0.0 if present(clean.gyr) else state.gyr_absent + dt
+        acc_absent = 0.0 if present(clean.acc) else state.acc_absent + dt
+        mag_absent = 0.0 if present(clean.mag) else state.mag_absent + dt
+        gyr = clean.gyr if present(clean.gyr) else state.gyr
+        if gyr_absent > 0.0:
+            flags |= GYR_MISSING
+        if acc_absent > self.acc_loss:
+            flags |= ACC_MISSING
+        if state.aligned and mag_absent > self.mag_loss:
+            flags |= MAG_MISSING
+        if dt > self.gap:
+            flags |= GAP
+        lost = state.lost or gyr_absent > self.longest_loss or dt > self.longest_loss
+        lost = lost or state.disorder > self.longest_disorder
+
+        usable = acc_absent == 0.0 and gyr_absent == 0.0
+        has_mag = mag_absent == 0.0
+        sample = with_sensors(clean, gyr, clean.acc, clean.mag)
+        if state.started and not lost and (state.aligned or not has_mag):
+            inner = step(self.method, state.inner, sample)
+            return State(inner, gyr, True, state.aligned, False, gyr_absent, acc_absent, mag_absent, 0, flags)
+
+        # From here on the method does not step: it waits for samples to start from, or starts.
+        before = output(self.method, state.inner, sample)
+        if (not state.started or lost) and not usable:
+            flags |= LOST if state.started else INITIALISING
+            return State(
+                state.inner, gyr, state.started, state.aligned, lost, gyr_absent, acc_absent, mag_absent, 0, flags
+            )  # fmt: skip
+        if state.started:
+            flags |= RESET
+            sample = _restart(before.attitude, sample, lost, self.declination)
+        inner = start(self.method, sample, before.bias)
+        return State(inner, gyr, True, has_mag, False, gyr_absent, acc_absent, mag_absent, 0, flags)
+
+    def output(self, state: State, sample: Sample) -> Output:
+        """What the method says; it sees the rate, not the other sensors, which it had in ``step``."""
+        out = output(self.method, state.inner, with_sensors(sample, state.gyr, ABSENT, ABSENT))
+        attitude = out.attitude if state.started else Quat(ABSENT.x, ABSENT.x, ABSENT.x, ABSENT.x)
+        return Output(out.dt, attitude, out.rate, out.bias, out.sigma, out.bias_sigma, out.flags | state.flags)
+
+
+@compiled
+def _held(guard: Guard, state: State) -> State:
+    """A row without a usable stamp: nothing moves, and too many of them lose the attitude."""
+    disorder = state.disorder + 1
+    flags = TIME_DISORDER
+    if not state.started:
+        flags |= INITIALISING
+    elif state.lost or disorder > guard.longest_disorder:
+        flags |= LOST
+    return State(
+        state.inner, state.gyr, state.started, state.aligned, state.lost,
+        state.gyr_absent, state.acc_absent, state.mag_absent, disorder, flags,
+    )  # fmt: skip
+
+
+@compiled
+def _restart(attitude: Quat, sample: Sample, lost: bool, declination: float) -> Sample:
+    """The sample to start anew from: what is known of tilt and heading stays, the rest is the sample's.
+
+    After a loss the tilt is the accelerometer's; a first magnetometer sample changes the heading only.
+    """
+    if lost:
+        attitude = shortest_turn(unit(rotate(attitude, sample.acc)), UP) * attitude
+    rest = resting_sample(attitude, declination)
+    return with_sensors(sample, sample.gyr, rest.acc, sample.mag if present(sample.mag) else rest.mag)
+
+
+@compiled
+def _cleaned(guard: Guard, sample: Sample, acc_absent: float, mag_absent: float) -> Sample:
+    """The sample with everything that is no measurement made absent; zeros point nowhere."""
+    gyr = sample.gyr if within(sample.gyr, guard.largest_gyr) else ABSENT
+    acc = sample.acc if within(sample.acc, guard.largest_acc) and dot(sample.acc, sample.acc) > 1e-6 else ABSENT
+    mag = sample.mag if within(sample.mag, guard.largest_mag) and dot(sample.mag, sample.mag) > 1e-18 else ABSENT
+    dt = sample.dt
+    acc_dt, mag_dt = min(acc_absent + dt, guard.gap), min(mag_absent + dt, guard.gap)
+    return Sample(dt, gyr, acc, mag, sample.acc_age, sample.mag_age, acc_dt, mag_dt)
+

@@ -1,0 +1,97 @@
+"""Parameters of a method: what they mean, and the one place where they are checked before a kernel sees them."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from typing import Annotated, Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
+
+from poise.errors import MethodError
+from poise.math.compiled import Choice
+
+
+class Parameter(NamedTuple):
+    """One parameter of a method, as people are shown it.
+
+    A method declares it as ``name: Annotated[float, unit, meaning] = default``, with ``(low, high)`` behind the meaning
+    where the range is not "0 or more".
+    """
+
+    name: str
+    kind: Any
+    default: Any
+    unit: str
+    meaning: str
+    low: float
+    high: float
+
+    @property
+    def choices(self) -> tuple[str, ...]:
+        """The texts that may be given, where the parameter is a choice."""
+        return get_args(self.kind) if get_origin(self.kind) is Literal else ()
+
+
+@cache
+def parameters(method_class: type) -> tuple[Parameter, ...]:
+    """The parameters of a method class, in order."""
+    found = []
+    for name, hint in get_type_hints(method_class, include_extras=True).items():
+        kind, *facts = get_args(hint) if get_origin(hint) is Annotated else (hint,)
+        low, high = next((fact for fact in facts if isinstance(fact, tuple)), (0.0, math.inf))
+        unit, meaning = [*(fact for fact in facts if isinstance(fact, str)), "", ""][:2]
+        default = getattr(method_class, "_field_defaults", {}).get(name)
+        found.append(Parameter(name, kind, default, unit, meaning, low, high))
+    return tuple(found)
+
+
+def prepared(method: Any) -> Any:
+    """*method* with every parameter of the exact type its declaration names, ready for a kernel.
+
+    An int where a float is declared would compile everything anew. Raises :class:`MethodError` for a value of the wrong
+    kind or out of range.
+    """
+    if isinstance(method, type):
+        raise MethodError(f"{method.__name__} is a class; give a method: {method.__name__}()")
+    if not (isinstance(method, tuple) and hasattr(method, "_fields") and hasattr(method, "step")):
+        raise MethodError(f"expected a method such as TwoStage(), found {type(method).__name__}")
+    cls = type(method)
+    return cls(**{p.name: _checked(f"{cls.__name__}.{p.name}", getattr(method, p.name), p) for p in parameters(cls)})
+
+
+def _checked(name: str, value: Any, parameter: Parameter) -> Any:
+    if isinstance(value, tuple) and hasattr(value, "_fields"):
+        return prepared(value) if hasattr(value, "step") else value
+    if parameter.choices:
+        if value not in parameter.choices:
+            raise MethodError(f"{name}: expected one of {', '.join(map(repr, parameter.choices))}, found {value!r}")
+        return Choice(value)
+    if parameter.kind is bool:
+        if value not in (True, False):
+            raise MethodError(f"{name}: expected True or False, found {value!r}")
+        return bool(value)
+    if parameter.kind in (int, float):
+        return _number(name, value, parameter)
+    return value
+
+
+def _number(name: str, value: Any, parameter: Parameter) -> float | int:
+    try:
+        number = float(value)
+        if isinstance(value, str) or math.isnan(number) or (parameter.kind is int and number != int(number)):
+            raise ValueError
+    except (TypeError, ValueError, OverflowError):
+        expected = "a whole number" if parameter.kind is int else "a number"
+        raise MethodError(f"{name}: expected {expected} ({parameter.unit}), found {value!r}") from None
+    if not parameter.low <= number <= parameter.high:
+        raise MethodError(
+            f"{name}: expected {parameter.low:g} to {parameter.high:g} {parameter.unit}, found {value!r}"
+        )
+    return int(number) if parameter.kind is int else number
+
+
+def as_dict(method: Any) -> dict[str, Any]:
+    """The parameters of *method* by name, nested methods included, for files and reports."""
+    return {
+        name: as_dict(value) if hasattr(value, "_fields") else (str(value) if isinstance(value, str) else value)
+        for name, value in zip(method._fields, method, strict=True)
+    }

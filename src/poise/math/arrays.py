@@ -1,0 +1,102 @@
+"""Rotations of whole arrays: quaternions (n, 4) w x y z and vectors (n, 3)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+def multiply(p: Floats, q: Floats) -> Floats:
+    """p ⊗ q row by row (Hamilton)."""
+    pw, px, py, pz = np.moveaxis(np.asarray(p), -1, 0)
+    qw, qx, qy, qz = np.moveaxis(np.asarray(q), -1, 0)
+    return np.stack(
+        [
+            pw * qw - px * qx - py * qy - pz * qz,
+            pw * qx + px * qw + py * qz - pz * qy,
+            pw * qy - px * qz + py * qw + pz * qx,
+            pw * qz + px * qy - py * qx + pz * qw,
+        ],
+        axis=-1,
+    )
+
+
+def conjugate(q: Floats) -> Floats:
+    return np.asarray(q) * np.array([1.0, -1.0, -1.0, -1.0])
+
+
+def normalize(q: Floats) -> Floats:
+    """Rows of length one; a row without a length becomes NaN."""
+    length = np.linalg.norm(q, axis=-1, keepdims=True)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(length > 0, q / length, np.nan)
+
+
+def rotate(q: Floats, v: Floats) -> Floats:
+    """v turned by q, row by row."""
+    q, v = np.asarray(q, float), np.asarray(v, float)
+    axis = q[..., 1:]
+    t = 2.0 * np.cross(axis, v)
+    return np.asarray(v + q[..., :1] * t + np.cross(axis, t))
+
+
+def matrix(q: Floats) -> Floats:
+    """(..., 3, 3): columns are the body's axes in the Earth frame."""
+    w, x, y, z = np.moveaxis(np.asarray(q, float), -1, 0)
+    return np.stack(
+        [
+            np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)], -1),
+            np.stack([2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)], -1),
+            np.stack([2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)], -1),
+        ],
+        axis=-2,
+    )
+
+
+def from_matrix(m: Floats) -> Floats:
+    """The quaternion of one 3 × 3 rotation matrix, w ≥ 0."""
+    k = np.array(
+        [
+            [m[0, 0] + m[1, 1] + m[2, 2], m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]],
+            [0, m[0, 0] - m[1, 1] - m[2, 2], m[0, 1] + m[1, 0], m[0, 2] + m[2, 0]],
+            [0, 0, m[1, 1] - m[0, 0] - m[2, 2], m[1, 2] + m[2, 1]],
+            [0, 0, 0, m[2, 2] - m[0, 0] - m[1, 1]],
+        ]
+    )
+    q = np.linalg.eigh(k, UPLO="U")[1][:, -1]  # Bar-Itzhack: the eigenvector of the largest eigenvalue
+    return np.asarray(q if q[0] >= 0 else -q)
+
+
+def angle(q: Floats) -> Floats:
+    """The whole angle of each turn, rad in [0, π]."""
+    return np.asarray(2.0 * np.arctan2(np.linalg.norm(q[..., 1:], axis=-1), np.abs(q[..., 0])))
+
+
+def turn_about_up(angle_rad: Floats) -> Floats:
+    """Quaternions that turn the Earth frame counter-clockwise about up."""
+    half = 0.5 * np.asarray(angle_rad, float)
+    zero = np.zeros_like(half)
+    return np.stack([np.cos(half), zero, zero, np.sin(half)], axis=-1)
+
+
+def continuous(q: Floats) -> Floats:
+    """The same attitudes with signs chosen so that neighbours never jump from q to −q; NaN rows pass through."""
+    q = np.array(q, float)
+    known = np.flatnonzero(np.isfinite(q).all(axis=1))
+    if len(known) > 1:
+        flips = np.einsum("ij,ij->i", q[known[1:]], q[known[:-1]]) < 0
+        q[known[1:][np.cumsum(flips) % 2 == 1]] *= -1.0
+    return q
+
+
+def slerp(p: Floats, q: Floats, t: Floats) -> Floats:
+    """From p (t = 0) to q (t = 1) along the shorter way, row by row."""
+    q = np.where(np.einsum("ij,ij->i", p, q)[:, None] < 0, -q, q)
+    step = multiply(conjugate(p), q)
+    sine = np.linalg.norm(step[:, 1:], axis=1)
+    half = np.arctan2(sine, step[:, 0])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = np.where(sine > 1e-12, np.sin(t * half) / sine, t)
+    return multiply(p, np.column_stack([np.cos(t * half), ratio[:, None] * step[:, 1:]]))

@@ -1,0 +1,280 @@
+"""The one bridge to numba: compile functions, and give NamedTuples their operators and methods inside kernels.
+
+With ``NUMBA_DISABLE_JIT=1`` nothing here compiles and every kernel runs as the plain Python that it is.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import operator
+import zlib
+from collections.abc import Callable, Iterator
+from functools import cache
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numba
+from numba.core import caching, cgutils, types
+from numba.experimental import structref
+from numba.extending import (
+    NativeValue,
+    intrinsic,
+    models,
+    overload,
+    register_model,
+    typeof_impl,
+    unbox,
+)
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+PLAIN_PYTHON: bool = bool(numba.config.DISABLE_JIT)
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Compiling, and a disk cache that can be trusted
+
+
+@cache
+def source_stamp() -> str:
+    """A hash of everything a kernel can be made of.
+
+    Numba's own stamp covers the file of the outermost kernel only, so an edited helper would go unnoticed (numba #1833).
+    """
+    package = Path(__file__).parents[1]
+    files = [path for folder in ("math", "data", "estimators") for path in (package / folder).rglob("*.py")]
+    files += package.glob("*.py")
+    return hashlib.sha256(b"\0".join(path.read_bytes() for path in sorted(files))).hexdigest()
+
+
+class _Stamped:
+    def get_source_stamp(self) -> str:
+        return source_stamp()
+
+
+class _UserProvided(_Stamped, caching.UserProvidedCacheLocator):  # type: ignore[misc]  # numba is untyped
+    pass
+
+
+class _InTree(_Stamped, caching.InTreeCacheLocator):  # type: ignore[misc]
+    pass
+
+
+class _UserWide(_Stamped, caching.UserWideCacheLocator):  # type: ignore[misc]
+    pass
+
+
+class _CompileResults(caching.CompileResultCacheImpl):  # type: ignore[misc]
+    _locator_classes = [_UserProvided, _InTree, _UserWide]
+
+
+class _PackageCache(caching.FunctionCache):  # type: ignore[misc]
+    """Numba's disk cache, for signatures of poise's own types only.
+
+    A file with a type from a user's module could not be unpickled by a process without that module, not even for a
+    built-in method, and would be stale after an edit of that module.  The index therefore holds text keys, never types.
+    """
+
+    _impl_class = _CompileResults
+
+    def _index_key(self, sig: Any, codegen: Any) -> Any:
+        return (*map(_describe, sig), codegen.magic_tuple())
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        return super().load_overload(sig, target_context) if _all_own(sig) else None
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        if _all_own(sig):
+            super().save_overload(sig, data)
+
+
+def _children(numba_type: Any) -> Iterator[Any]:
+    if isinstance(numba_type, types.StructRef):
+        yield from numba_type.field_dict.values()
+    elif isinstance(numba_type, types.BaseTuple):
+        yield from numba_type.types
+    elif isinstance(numba_type, types.Optional):
+        yield numba_type.type
+
+
+def _own(numba_type: Any) -> bool:
+    module: str = getattr(getattr(numba_type, "instance_class", None), "__module__", "poise")
+    return (module == "poise" or module.startswith("poise.")) and _all_own(_children(numba_type))
+
+
+def _all_own(numba_types: Any) -> bool:
+    return all(map(_own, numba_types))
+
+
+def _describe(numba_type: Any) -> str:
+    cls = getattr(numba_type, "instance_class", None)
+    name = f"{cls.__module__}.{cls.__qualname__}" if cls else f"{type(numba_type).__name__}:"
+    children = list(_children(numba_type))
+    return f"{name}({','.join(map(_describe, children))})" if cls or children else f"{name}{numba_type}"
+
+
+def compiled(function: F) -> F:
+    """Compile *function* for use inside other kernels."""
+    return function if PLAIN_PYTHON else numba.njit(function, nogil=True, error_model="numpy")
+
+
+def entry(function: F) -> F:
+    """Compile *function* to be called from Python, cached on disk until any source of poise changes."""
+    if PLAIN_PYTHON:
+        return function
+    kernel = numba.njit(function, nogil=True, error_model="numpy")
+    try:
+        kernel._cache = _PackageCache(function)
+    except RuntimeError:  # no folder to write to: compile in every process
+        pass
+    return kernel  # type: ignore[no-any-return]
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# NamedTuples: dispatch by class
+
+
+@cache
+def kernel_of(numba_type: Any, name: str) -> Any:
+    """The compiled method *name* of the NamedTuple class behind a numba type, or None."""
+    method = getattr(getattr(numba_type, "instance_class", None), name, None)
+    return numba.njit(method, nogil=True, error_model="numpy", forceinline=name != "start") if inspect.isfunction(method) else None
+
+
+def dispatched(name: str, default: Callable[..., Any] | None = None) -> Callable[..., Any]:
+    """A function ``f(thing, *args)`` that calls ``thing.name(*args)``, in Python and inside kernels.
+
+    Dispatch on the class compiles once and caches; a method passed as an argument would recompile in every process.
+    *default* takes the same arguments and stands in where the class has no such method.
+    """
+
+    def call(thing: Any, *args: Any) -> Any:
+        method = getattr(thing, name, None)
+        return method(*args) if method is not None else default(thing, *args)  # type: ignore[misc]
+
+    if not PLAIN_PYTHON:
+        fallback = compiled(default) if default else None
+
+        @overload(call)
+        def _(thing, *args):
+            kernel = kernel_of(thing, name) or fallback
+            if kernel is not None:
+                return lambda thing, *args: kernel(thing, *args)
+
+    return call
+
+
+def built_from(classes: dict[type, type], default: type) -> Callable[..., Any]:
+    """A function ``f(*parts)`` that makes the class which *classes* names for the class of its first part."""
+
+    def build(*parts: Any) -> Any:
+        return classes.get(type(parts[0]), default)(*parts)
+
+    if not PLAIN_PYTHON:
+
+        @overload(build)
+        def _(*parts):
+            made = classes.get(getattr(parts[0], "instance_class", None), default)
+            return lambda *parts: made(*parts)
+
+    return build
+
+
+def _share_operator(name: str) -> None:
+    @overload(getattr(operator, name))
+    def _(left, right):
+        if kernel := kernel_of(left, f"__{name}__"):
+            return lambda left, right: kernel(left, right)
+        if kernel := kernel_of(right, f"__r{name}__"):
+            return lambda left, right: kernel(right, left)
+        return None
+
+
+def _share_negation() -> None:
+    @overload(operator.neg)
+    def _(value):
+        if kernel := kernel_of(value, "__neg__"):
+            return lambda value: kernel(value)
+        return None
+
+
+if not PLAIN_PYTHON:
+    for _name in ("add", "sub", "mul", "truediv", "matmul"):
+        _share_operator(_name)
+    _share_negation()
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Choices: a parameter that names one of a few texts, at the cost of comparing two integers
+
+
+class Choice(str):
+    """A text option on its way into a kernel, where ``option == "text"`` compares hashes made at compile time."""
+
+    __slots__ = ()
+
+    @property
+    def code(self) -> int:
+        return _code(self)
+
+
+def _code(text: str) -> int:
+    return zlib.crc32(text.encode())
+
+
+if not PLAIN_PYTHON:
+
+    class _ChoiceType(types.Type):  # type: ignore[misc]
+        def __init__(self) -> None:
+            super().__init__(name="Choice")
+
+    _CHOICE = _ChoiceType()
+
+    @register_model(_ChoiceType)
+    class _ChoiceModel(models.PrimitiveModel):  # type: ignore[misc]
+        def __init__(self, manager: Any, fe_type: Any) -> None:
+            super().__init__(manager, fe_type, cgutils.ir.IntType(64))
+
+    @typeof_impl.register(Choice)
+    def _(value: Any, context: Any) -> Any:
+        return _CHOICE
+
+    @unbox(_ChoiceType)
+    def _(typ: Any, value: Any, context: Any) -> Any:
+        code = context.pyapi.object_getattr_string(value, "code")
+        number = context.pyapi.long_as_longlong(code)
+        context.pyapi.decref(code)
+        return NativeValue(number, is_error=cgutils.is_not_null(context.builder, context.pyapi.err_occurred()))
+
+    @intrinsic
+    def _code_of(typing_context: Any, choice: Any) -> Any:
+        return types.int64(choice), lambda context, builder, signature, args: args[0]
+
+    @overload(operator.eq, prefer_literal=True)
+    def _(left, right):
+        if isinstance(left, _ChoiceType) and isinstance(right, types.StringLiteral):
+            code = _code(right.literal_value)
+            return lambda left, right: _code_of(left) == code
+        return None
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Memory: state that stays on the compiled side between calls (boxing a State costs ~2 us per nested tuple)
+
+
+def memory_class(name: str, fields: list[str]) -> Any:
+    """A mutable record with *fields*, a numba structref or, without compilation, a plain object."""
+    if PLAIN_PYTHON:
+
+        def fill(self: Any, *values: Any) -> None:
+            self.__dict__.update(zip(fields, values, strict=True))
+
+        return type(name, (), {"__init__": fill})
+
+    def make(cls: Any, *values: Any) -> Any:
+        return structref.StructRefProxy.__new__(cls, *values)
+
+    record = structref.register(type(f"{name}Type", (types.StructRef,), {}))
+    proxy = type(name, (structref.StructRefProxy,), {"__new__": make})
+    structref.define_proxy(proxy, record, fields)
+    return proxy
