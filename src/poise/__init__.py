@@ -1,2 +1,64 @@
-"""poise: attitude from inertial samples, with its uncertainty and its reasons."""
-__version__="0.1.0"
+"""poise: attitude from inertial samples, with its uncertainty and its reasons.
+
+    recording = poise.read("walk.csv")
+    attitude = poise.estimate(poise.TwoStage(), recording)
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+__version__ = "0.1.0"
+
+# Names are imported when they are first used: `poise --help` must not wait for a compiler.
+_HOME = {
+    "AdaptiveGain": "poise.estimators.adaptive_gain",
+    "Attitude": "poise.data.attitude",
+    "Errors": "poise.evaluation",
+    "Flag": "poise.data.flags",
+    "Guard": "poise.estimators.guard",
+    "METHODS": "poise.estimators",
+    "Packet": "poise.data.packet",
+    "PoiseError": "poise.errors",
+    "Recording": "poise.data.recording",
+    "RestBias": "poise.estimators.rest_bias",
+    "Stream": "poise.estimators.engine",
+    "TwoStage": "poise.estimators.two_stage",
+    "estimate": "poise.estimators.engine",
+    "evaluate": "poise.evaluation",
+    "read": "poise.formats",
+    "sniff": "poise.formats",
+    "write": "poise.formats",
+}
+
+__all__ = [*_HOME]  # noqa: PLE0604  (a literal below would say everything twice)
+
+if TYPE_CHECKING:
+    from poise.data.attitude import Attitude as Attitude
+    from poise.data.flags import Flag as Flag
+    from poise.data.packet import Packet as Packet
+    from poise.data.recording import Recording as Recording
+    from poise.errors import PoiseError as PoiseError
+    from poise.estimators import METHODS as METHODS
+    from poise.estimators.adaptive_gain import AdaptiveGain as AdaptiveGain
+    from poise.estimators.engine import Stream as Stream
+    from poise.estimators.engine import estimate as estimate
+    from poise.estimators.guard import Guard as Guard
+    from poise.estimators.rest_bias import RestBias as RestBias
+    from poise.estimators.two_stage import TwoStage as TwoStage
+    from poise.evaluation import Errors as Errors
+    from poise.evaluation import evaluate as evaluate
+    from poise.formats import read as read
+    from poise.formats import sniff as sniff
+    from poise.formats import write as write
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOME:
+        return getattr(import_module(_HOME[name]), name)
+    raise AttributeError(f"module 'poise' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted([*_HOME, "__version__"])
