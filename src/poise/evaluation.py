@@ -73,10 +73,12 @@ class Errors:
     @property
     def diverged(self) -> bool:
         """Whether the total error stays above 90° for 5 s somewhere."""
-        bad = np.flatnonzero(~(self.total > DIVERGED_ANGLE))  # NaN ends a stretch
-        edges = np.concatenate([[-1], bad, [len(self.total)]])
-        longest = [self.time[b - 1] - self.time[a + 1] for a, b in zip(edges, edges[1:], strict=False) if b - a > 2]
-        return bool(longest) and float(np.nanmax(longest)) >= DIVERGED_TIME
+        stamped = np.isfinite(self.time)
+        time, total = self.time[stamped], self.total[stamped]
+        good = np.flatnonzero(~(total > DIVERGED_ANGLE))  # NaN ends a stretch
+        edges = np.concatenate([[-1], good, [len(total)]])
+        stretches = [time[b - 1] - time[a + 1] for a, b in zip(edges, edges[1:], strict=False) if b - a > 2]
+        return bool(stretches) and float(max(stretches)) >= DIVERGED_TIME
 
 
 def evaluate(attitude: Attitude, recording: Recording | Attitude) -> Errors:
@@ -85,6 +87,8 @@ def evaluate(attitude: Attitude, recording: Recording | Attitude) -> Errors:
     A reference on the same rows is compared row by row; another one is resampled to the attitude's times.
     Raises :class:`RecordingError` where there is no reference, or it is in another frame.
     """
+    if not isinstance(recording, (Recording, Attitude)):
+        raise RecordingError(f"expected a Recording or an Attitude to compare with, found {type(recording).__name__}")
     truth = recording.truth if isinstance(recording, Recording) else recording
     if truth is None:
         raise RecordingError("the recording has no reference to evaluate against; give one with --reference FILE")

@@ -60,7 +60,7 @@ class Provenance:
     """SHA-256 of the file that was read"""
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False)
 class Attitude:
     """Orientation over time, with its rate, bias, uncertainty and flags; one row per sample.
 
@@ -98,11 +98,24 @@ class Attitude:
         time, quat = np.array(time, float), np.array(quat, float)
         if time.ndim != 1 or quat.shape != (len(time), 4):
             raise RecordingError(f"time (n,) and quat (n, 4) expected, found {time.shape} and {quat.shape}")
+        if frame not in (*_FROM_ENU, "body"):
+            raise RecordingError(f"frame {frame!r} not known; expected enu, ned, nwu or body")
         table = np.full((len(time), COLUMNS), np.nan)
         quat[~np.isfinite(quat).all(axis=1)] = np.nan
-        table[:, QUAT] = arrays.normalize(quat)
+        table[:, QUAT] = arrays.continuous(arrays.normalize(quat))
         flags = np.where(np.isfinite(table[:, 0]), 0, LOST).astype(np.uint32)
         return cls(time, table, flags, heading_reference, frame, provenance or Provenance())
+
+    @classmethod
+    def view(
+        cls, time: Floats, table: Floats, flags: NDArray[np.uint32], heading: HeadingReference, provenance: Provenance
+    ) -> Attitude:
+        """An ENU attitude of these very arrays, unchecked: a frozen constructor costs a third of a one-sample update."""
+        attitude = object.__new__(cls)
+        attitude.__dict__.update(
+            time=time, table=table, flags=flags, heading_reference=heading, frame="enu", provenance=provenance
+        )  # fmt: skip
+        return attitude
 
     @property
     def quat(self) -> Floats:
@@ -165,7 +178,8 @@ class Attitude:
         """
         import warnings
 
-        if len(sequence) != 3 or set(sequence.upper()) - set("XYZ"):
+        x, y, z = sequence if len(sequence) == 3 else "   "
+        if not (set(sequence) <= set("XYZ") or set(sequence) <= set("xyz")) or x == y or y == z:
             raise RecordingError(f'sequence {sequence!r} not understood; expected three axes such as "ZXY" or "ZYX"')
         angles = np.full((len(self), 3), np.nan)
         known = np.isfinite(self.quat).all(axis=1)
@@ -181,7 +195,8 @@ class Attitude:
         Not determined where that axis points up or down.
         """
         east, north, _ = self._in_enu(forward).T
-        return np.asarray(np.arctan2(east, north) % (2 * np.pi))
+        heading = np.arctan2(east, north) % (2 * np.pi)
+        return np.where(heading >= 2 * np.pi, 0.0, heading)  # −1e-17 % 2π is 2π
 
     def tilt(self, axis: str = "z") -> Floats:
         """(n,) rad in [0, π]: the angle between the body axis *axis* and up; it has no singularity."""
@@ -220,7 +235,7 @@ class Attitude:
         """
         if self.frame != other.frame:
             raise RecordingError(f"frames differ: {self.frame} and {other.frame}; convert one with .to()")
-        base = other if np.array_equal(self.time, other.time) else other.resample(self.time)
+        base = other if np.array_equal(self.time, other.time, equal_nan=True) else other.resample(self.time)
         quat = arrays.multiply(arrays.conjugate(base.quat), self.quat)
         table = np.full_like(self.table, np.nan)
         table[:, QUAT] = arrays.continuous(quat)
@@ -308,7 +323,7 @@ class Attitude:
             "poise.kind": "attitude",
             "poise.version": __version__,
             "poise.frame": self.frame,
-            "poise.quaternion": f"w x y z, Hamilton, body to {self.frame.upper()}",
+            "poise.quaternion": f"w x y z, Hamilton, body to {'other body' if self.frame == 'body' else self.frame.upper()}",
             "poise.units": "time s; rate, bias, bias_sigma rad/s; sigma rad",
             "poise.heading_reference": self.heading_reference,
             "poise.flags": json.dumps({flag.name: int(flag) for flag in Flag}),
@@ -342,7 +357,8 @@ class Attitude:
         Stretches of one flag less than *bridge* (s) apart are told as one.
         """
         found = []
-        clock = np.maximum.accumulate(np.where(np.isfinite(self.time), self.time, -np.inf))
+        known = np.isfinite(self.time)
+        clock = np.maximum.accumulate(np.where(known, self.time, self.time[known][0] if known.any() else 0.0))
         for flag in Flag:
             rows = np.flatnonzero(self.flags & np.uint32(flag))
             if len(rows):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from poise.data import axes
-from poise.data.attitude import BIAS, QUAT, RATE, Attitude
+from poise.data.attitude import BIAS, BIAS_SIGMA, QUAT, RATE, Attitude
 from poise.errors import RecordingError
 from poise.math import arrays
 
@@ -67,6 +68,8 @@ class Recording:
             values[name] = _rows(name, getattr(self, name), (n,), 0.0)
         if self.moving is not None:
             values["moving"] = _rows("moving", self.moving, (n,), 0.0).astype(bool)
+        if self.truth is not None and not isinstance(self.truth, Attitude):
+            raise RecordingError(f"truth: expected an Attitude (see Attitude.of), found {type(self.truth).__name__}")
         if self.truth is not None and len(self.truth) != n:
             raise RecordingError(f"truth: expected {n} rows like time, found {len(self.truth)}")
         if not 1.0 < self.gravity < 30.0:
@@ -78,8 +81,8 @@ class Recording:
     @classmethod
     def at_rate(cls, rate: float, gyr: ArrayLike, acc: ArrayLike, mag: ArrayLike | None = None, **facts: Any) -> Recording:
         """A recording of evenly spaced samples, *rate* per second, starting at 0 s."""
-        if not (np.isfinite(rate) and rate > 0):
-            raise RecordingError(f"rate: expected samples per second above 0, found {rate}")
+        if not isinstance(rate, (int, float, np.number)) or not 1.0 / _SLOWEST <= rate < np.inf:
+            raise RecordingError(f"rate: expected samples per second, at least {1.0 / _SLOWEST:g}, found {rate!r}")
         time = np.arange(len(np.asarray(gyr))) / float(rate)
         return cls(time=time, gyr=gyr, acc=acc, mag=mag, **facts)  # type: ignore[arg-type]
 
@@ -114,7 +117,9 @@ class Recording:
             rows = np.atleast_1d(rows)
         cut = {name: getattr(self, name)[rows] for name in ("time", "gyr", "acc", "mag", "acc_age", "mag_age")}
         cut |= {name: getattr(self, name)[rows] for name in ("truth", "moving") if getattr(self, name) is not None}
-        return replace(self, **cut)
+        part = copy(self)  # not `replace`: a few rows may lie further apart than any gyroscope's
+        part.__dict__.update(cut)
+        return part
 
     def between(self, start: float, end: float) -> Recording:
         """The rows with start ≤ time < end, s."""
@@ -132,8 +137,10 @@ class Recording:
             table = truth.table.copy()
             table[:, QUAT] = arrays.multiply(truth.quat, arrays.conjugate(arrays.from_matrix(turn)))
             table[:, RATE], table[:, BIAS] = truth.rate @ turn.T, truth.bias @ turn.T
+            table[:, BIAS_SIGMA] = np.sqrt(truth.bias_sigma**2 @ (turn**2).T)
             truth = replace(truth, table=table)
-        turned = {name: getattr(self, name) @ turn.T for name in ("gyr", "acc", "mag")}
+        with np.errstate(invalid="ignore"):  # infinite samples become NaN, as absent as they were
+            turned = {name: getattr(self, name) @ turn.T for name in ("gyr", "acc", "mag")}
         return replace(self, **turned, truth=truth)
 
     @property
@@ -208,6 +215,8 @@ def _check_unit_of_time(time: Floats) -> None:
 
 def _place(name: str, rows: Floats, time: ArrayLike, values: ArrayLike) -> tuple[Floats, Floats]:
     stamps = _numbers(f"{name} time", time)
+    if stamps.ndim != 1:
+        raise RecordingError(f"{name} time: expected (n,) seconds, found shape {stamps.shape}")
     samples = _rows(name, values, (len(stamps), 3), np.nan)
     usable = np.isfinite(stamps) & np.isfinite(samples).all(axis=1)
     row = np.searchsorted(rows, stamps, side="left")

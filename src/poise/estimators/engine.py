@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from poise.data.attitude import BIAS, COLUMNS, QUAT, Attitude, HeadingReference, Provenance
-from poise.data.flags import SILENT
+from poise.data.flags import LOST, SILENT
 from poise.data.packet import Packet, Sample
 from poise.data.recording import Recording
 from poise.errors import MethodError, RecordingError, StateError
@@ -21,7 +21,7 @@ from poise.estimators.parameters import as_dict, prepared
 from poise.estimators.protocol import output, resting_sample, start, step
 from poise.estimators.rest_bias import RestBias
 from poise.math import arrays
-from poise.math.compiled import compiled, entry, memory_class
+from poise.math.compiled import compiled, direct, entry, memory_class
 from poise.math.quaternions import Quat, inner
 from poise.math.vectors import Vec3
 
@@ -103,7 +103,7 @@ def advance(memory: Any, aside: Floats, rows: Floats, table: Floats, flags: NDAr
         _write(table, i, 7, out.bias)
         _write(table, i, 10, out.sigma)
         _write(table, i, 13, out.bias_sigma)
-        flags[i] = out.flags
+        flags[i] = out.flags if isfinite(q.w) else out.flags | LOST
     memory.state = state
     aside[_CLOCK], aside[_FIRST] = clock, 0.0
     aside[_LAST], aside[_LAST + 1], aside[_LAST + 2], aside[_LAST + 3] = last.w, last.x, last.y, last.z
@@ -137,7 +137,11 @@ class Stream:
         self._bias = Vec3(*_three("bias", bias))
         self._silence = silence
         self._memory: Any = None
-        self._row = np.empty((1, _WIDTH))
+        self._has_declination = hasattr(_core(method), "declination")
+        self._reset = False  # whether the heading was set by hand
+        self._run: Any = None
+        self._row = np.zeros((1, _WIDTH))
+        self._gyr, self._acc, self._mag = self._row[0, _GYR:_ACC], self._row[0, _ACC:_MAG], self._row[0, _MAG:_ACC_AGE]
         self._aside = np.array([nan, 1.0, 1.0, 0, 0, 0, 1.0, 0, 0, 0])
         self._heading: HeadingReference = "arbitrary"
         self._latest: Attitude | None = None
@@ -147,18 +151,26 @@ class Stream:
 
         Raises :class:`RecordingError` for a packet whose shapes do not fit; the stream goes on as if it had not come.
         """
-        rows = self._rows(packet)
-        return self._advance(rows, rows[:, _TIME].copy())
+        if isinstance(packet[0], float):
+            return self._advance(self._one_row(packet), np.array((packet[0],)))
+        if np.ndim(packet[0]) == 0:
+            return self.update(Packet(float(packet[0]), *packet[1:]))  # type: ignore[arg-type]
+        recording = Recording(*packet)  # type: ignore[arg-type]
+        return self._advance(self._rows(recording), recording.time)
 
     def _advance(self, rows: Floats, time: Floats) -> Attitude:
-        table = np.empty((len(rows), COLUMNS))
-        flags = np.empty(len(rows), np.uint32)
-        if len(rows):
+        n = len(time)
+        table = np.empty((n, COLUMNS))
+        flags = np.empty(n, np.uint32)
+        if n:
             if self._memory is None:
                 self._begin(rows)
-            advance(self._memory, self._aside, rows, table, flags)
-        attitude = Attitude(time, table, flags, self._heading, "enu", self._provenance)
-        if len(rows):
+                advance(self._memory, self._aside, rows, table, flags)
+                self._run = direct(advance, self._memory, self._aside, rows, table, flags)
+            else:
+                self._run(self._memory, self._aside, rows, table, flags)
+        attitude = Attitude.view(time, table, flags, self._heading, self._provenance)
+        if n:
             self._latest = attitude
         return attitude
 
@@ -196,8 +208,8 @@ class Stream:
         turn = arrays.turn_about_up(np.array(heading))
         self._aside[_TURN : _TURN + 4] = arrays.multiply(turn, self._aside[_TURN : _TURN + 4])
         self._aside[_LAST : _LAST + 4] = arrays.multiply(turn, self._aside[_LAST : _LAST + 4])
-        self._heading = "arbitrary"
-        self._latest = None if self._latest is None else _turned(self._latest[-1:], turn)
+        self._heading, self._reset = "arbitrary", True
+        self._latest = _turned(self._latest[-1:], turn)
 
     @property
     def state(self) -> Any:
@@ -213,6 +225,7 @@ class Stream:
                 "state": _flat(self.state),
                 "aside": self._aside.tolist(),
                 "heading_reference": self._heading,
+                "heading_reset": self._reset,
                 "latest": None if self._latest is None else self._latest.table[-1].tolist(),
                 "latest_flags": None if self._latest is None else int(self._latest.flags[-1]),
             }
@@ -228,7 +241,8 @@ class Stream:
             if kept["poise"] != "stream":
                 raise KeyError("poise")
             identity, flat, aside = kept["method"], kept["state"], np.array(kept["aside"], float)
-            heading, latest, latest_flags = kept["heading_reference"], kept["latest"], kept["latest_flags"]
+            heading, reset = kept["heading_reference"], bool(kept["heading_reset"])
+            latest, latest_flags = kept["latest"], kept["latest_flags"]
             if aside.shape != (_ASIDE,) or heading not in ("true", "magnetic", "arbitrary"):
                 raise ValueError
         except (ValueError, KeyError, TypeError) as problem:
@@ -243,7 +257,10 @@ class Stream:
         else:
             template = _begin(self._running, np.full((1, _WIDTH), nan), self._bias)
             self._memory = _recall(self._running, _filled(_state_of(template), flat))
-        self._aside, self._heading = aside, heading
+            empty = np.empty((0, _WIDTH)), np.empty((0, COLUMNS)), np.empty(0, np.uint32)
+            advance(self._memory, aside.copy(), *empty)
+            self._run = direct(advance, self._memory, aside, *empty)
+        self._aside, self._heading, self._reset = aside, heading, reset
         self._latest = None
         if latest is not None:
             self._latest = Attitude(
@@ -254,39 +271,38 @@ class Stream:
     def _identity(self) -> str:
         return f"{type(self._running).__name__}{json.dumps(as_dict(self._running), default=repr)}"
 
-    def _rows(self, packet: Packet) -> Floats:
+    def _one_row(self, packet: Packet) -> Floats:
+        """One sample in the buffer that is kept for it: the common case live."""
         time, gyr, acc, mag = packet
-        if isinstance(time, float):  # one sample: the common case live, kept short
-            row = self._row
-            row[0, _TIME] = time
-            try:
-                row[0, _GYR:_ACC] = gyr
-                row[0, _ACC:_MAG] = acc
-                row[0, _MAG:_ACC_AGE] = nan if mag is None else mag
-            except (TypeError, ValueError):
-                raise RecordingError(
-                    f"packet of one sample: expected three numbers each for gyr, acc, mag, found {gyr!r}, {acc!r}, {mag!r}"
-                ) from None
-            row[0, _ACC_AGE:] = 0.0
-            if mag is not None and self._heading == "arbitrary" and self._aside[_TURN] == 1.0:
-                self._see_mag(row)
-            return row
-        if np.ndim(time) == 0:
-            return self._rows(Packet(float(time), gyr, acc, mag))  # type: ignore[arg-type]
-        return self._filled_rows(Recording(time=time, gyr=gyr, acc=acc, mag=mag))  # type: ignore[arg-type]
+        try:
+            if len(gyr) != 3 or len(acc) != 3 or (mag is not None and len(mag) != 3):  # type: ignore[arg-type]
+                raise ValueError
+            self._gyr[:] = gyr
+            self._acc[:] = acc
+            self._mag[:] = nan if mag is None else mag
+        except (TypeError, ValueError):
+            raise RecordingError(
+                f"packet of one sample: expected three numbers each for gyr, acc, mag, found {gyr!r}, {acc!r}, {mag!r}"
+            ) from None
+        self._row[0, _TIME] = time
+        if self._heading == "arbitrary" and mag is not None:
+            self._see_mag(self._row)
+        return self._row
 
-    def _filled_rows(self, recording: Recording) -> Floats:
+    def _rows(self, recording: Recording) -> Floats:
         rows = np.empty((len(recording), _WIDTH))
         rows[:, _TIME] = recording.time
         rows[:, _GYR:_ACC], rows[:, _ACC:_MAG] = recording.gyr, recording.acc
         rows[:, _MAG:_ACC_AGE] = recording.mag
         rows[:, _ACC_AGE], rows[:, _MAG_AGE] = recording.acc_age, recording.mag_age
-        if self._heading == "arbitrary" and self._aside[_TURN] == 1.0:
+        if self._heading == "arbitrary":
             self._see_mag(rows)
         return rows
 
     def _see_mag(self, rows: Floats) -> None:
-        if hasattr(_core(self.method), "declination") and np.isfinite(rows[:, _MAG:_ACC_AGE]).all(axis=1).any():
+        """The heading means something as soon as a magnetometer has spoken, until `reset_heading` gives it another zero."""
+        mag = rows[:, _MAG:_ACC_AGE]
+        if self._has_declination and not self._reset and (np.isfinite(mag).all(axis=1) & mag.any(axis=1)).any():
             self._heading = "true" if self._declination else "magnetic"
 
 
@@ -311,7 +327,7 @@ def estimate(
     n, blocks = len(recording), []
     for first in range(0, max(n, 1), _BLOCK):
         part = recording if n <= _BLOCK else recording[first : first + _BLOCK]
-        blocks.append(stream._advance(stream._filled_rows(part), part.time))
+        blocks.append(stream._advance(stream._rows(part), part.time))
         if progress is not None:
             progress(min(first + _BLOCK, n))
     whole = blocks[0]

@@ -6,6 +6,8 @@ import math
 from functools import cache
 from typing import Annotated, Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
 
+import numpy as np
+
 from poise.errors import MethodError
 from poise.math.compiled import Choice
 
@@ -59,29 +61,30 @@ def prepared(method: Any) -> Any:
 
 
 def _checked(name: str, value: Any, parameter: Parameter) -> Any:
-    if isinstance(value, tuple) and hasattr(value, "_fields"):
-        return prepared(value) if hasattr(value, "step") else value
     if parameter.choices:
-        if value not in parameter.choices:
+        if not isinstance(value, str) or value not in parameter.choices:
             raise MethodError(f"{name}: expected one of {', '.join(map(repr, parameter.choices))}, found {value!r}")
         return Choice(value)
     if parameter.kind is bool:
-        if value not in (True, False):
+        if not isinstance(value, (bool, np.bool_)):
             raise MethodError(f"{name}: expected True or False, found {value!r}")
         return bool(value)
     if parameter.kind in (int, float):
         return _number(name, value, parameter)
+    if parameter.kind is Any or isinstance(value, type) or hasattr(value, "step"):  # a method inside a wrapper
+        return prepared(value)
     return value
 
 
 def _number(name: str, value: Any, parameter: Parameter) -> float | int:
     try:
         number = float(value)
-        if isinstance(value, str) or math.isnan(number) or (parameter.kind is int and number != int(number)):
+        if isinstance(value, (str, bool)) or math.isnan(number) or (parameter.kind is int and number != int(number)):
             raise ValueError
     except (TypeError, ValueError, OverflowError):
         expected = "a whole number" if parameter.kind is int else "a number"
-        raise MethodError(f"{name}: expected {expected} ({parameter.unit}), found {value!r}") from None
+        unit = f" ({parameter.unit})" if parameter.unit else ""
+        raise MethodError(f"{name}: expected {expected}{unit}, found {value!r}") from None
     if not parameter.low <= number <= parameter.high:
         raise MethodError(
             f"{name}: expected {parameter.low:g} to {parameter.high:g} {parameter.unit}, found {value!r}"

@@ -130,6 +130,16 @@ def entry(function: F) -> F:
     return kernel  # type: ignore[no-any-return]
 
 
+def direct(kernel: Any, *args: Any) -> Callable[..., Any]:
+    """The machine code of *kernel* for the types of *args*, which it has run with before, without the look-up by type.
+
+    It trusts its arguments: call it with exactly these types.  Saves about 1 us, a third of a one-sample update.
+    """
+    if PLAIN_PYTHON:
+        return kernel  # type: ignore[no-any-return]
+    return kernel.overloads[tuple(map(numba.typeof, args))].entry_point  # type: ignore[no-any-return]
+
+
 # ---------------------------------------------------------------------------------------------------------------------
 # NamedTuples: dispatch by class
 

@@ -9,7 +9,7 @@ from math import asin, atan2, cos, pi, sin, sqrt
 from typing import NamedTuple
 
 from poise.math.compiled import compiled
-from poise.math.vectors import Vec3, cross, dot, norm, unit
+from poise.math.vectors import ZERO, Vec3, cross, dot, norm, unit
 
 
 class Quat(NamedTuple):
@@ -203,8 +203,12 @@ def angles_from(q: Quat) -> Angles:
 
 @compiled
 def north_of(up: Vec3, mag: Vec3, declination: float) -> Vec3:
-    """True north in the body frame, level with *up*, from the field: the same direction as :func:`attitude_of` gives."""
-    east = unit(cross(mag, up))
+    """True north in the body frame, level with *up*, from the field, as :func:`attitude_of` has it; zero where it has none."""
+    east = cross(mag, up)
+    length = norm(east)
+    if length == 0.0:  # the field points along up
+        return ZERO
+    east = east / length
     north = cross(up, east)
     if declination == 0.0:
         return north
@@ -213,5 +217,5 @@ def north_of(up: Vec3, mag: Vec3, declination: float) -> Vec3:
 
 @compiled
 def wrapped(angle: float) -> float:
-    """The same angle in [−π, π)."""
+    """The same angle in [−π, π]."""
     return (angle + pi) % (2.0 * pi) - pi

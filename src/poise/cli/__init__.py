@@ -1,0 +1,52 @@
+"""The command ``poise``: one light module a subcommand, loaded when it is called."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+from cyclopts import App, CycloptsError
+
+app = App(
+    name="poise",
+    help="""Attitude from inertial samples: gyroscope, accelerometer and magnetometer in, orientation out,
+with its uncertainty and its reasons.
+
+Start with your own file: `poise sniff walk.csv` says what poise makes of it, `poise estimate walk.csv --plot walk.png`
+writes the attitude and a picture. Every command explains itself with `--help`.""",
+    help_format="markdown",
+    version=lambda: f"poise {_version()}",
+)
+app.command("poise.cli.estimate:estimate", name="estimate", help="Turn recordings into attitudes: the main job.")
+app.command("poise.cli.evaluate:evaluate", name="evaluate", help="Compare attitudes with a reference.")
+app.command("poise.cli.sniff:sniff", name="sniff", help="Say what a file is: format, rates, gaps, units, doubts.")
+app.command("poise.cli.methods:methods", name="methods", help="List the methods, or one with all its parameters.")
+
+
+def main() -> None:
+    """Run the command line; exit code 0 fine, 1 some input bad, 2 usage."""
+    sys.exit(run(sys.argv[1:]))
+
+
+def run(arguments: list[str]) -> int:
+    """The exit code of ``poise ARGUMENTS``."""
+    try:
+        code = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
+        sys.stdout.flush()
+        return code if isinstance(code, int) else 0
+    except CycloptsError as error:
+        command = " ".join(["poise", *(error.command_chain or ())])
+        first = " ".join(str(error).split())
+        print(f"poise: {first} See `{command} --help`.", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:  # `poise … | head`: the reader has had enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+
+
+def _version() -> str:
+    from poise import __version__
+
+    return __version__

@@ -1,0 +1,163 @@
+"""``poise estimate``: recordings in, attitudes out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from cyclopts import Parameter
+
+from poise.cli import show
+from poise.cli.options import Reading, Running, UsageError, usage
+
+if TYPE_CHECKING:
+    from poise.data.attitude import Attitude
+    from poise.data.recording import Recording
+
+_WRITABLE = (".parquet", ".csv", ".tum", ".txt")
+
+
+def estimate(
+    files: Annotated[list[Path], Parameter(name="FILE", negative="")],
+    /,
+    *,
+    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    plot: Path | None = None,
+    frame: Literal["enu", "ned", "nwu"] = "enu",
+    json: Annotated[bool, Parameter(negative="")] = False,
+    reading: Reading | None = None,
+    running: Running | None = None,
+) -> int:
+    """Turn recordings into attitudes: the main job.
+
+    Reads gyroscope, accelerometer and magnetometer samples, estimates the orientation after every one of them and writes
+    it beside its rate, bias, uncertainty and flags: for each FILE, `NAME.attitude.parquet` in the current folder.
+
+    Quaternions are w x y z and turn sensor axes into Earth axes (east, north, up) unless --frame says otherwise.
+
+    Examples: `poise estimate walk.csv --plot walk.png`; `poise estimate logs/*.csv -m adaptive-gain -o results/`;
+    `poise estimate log.txt --columns time,gx,gy,gz,ax,ay,az --units gyr=deg/s,acc=g -o walk.csv`
+
+    Parameters
+    ----------
+    files
+        Recordings: CSV, TSV, Parquet, npz or MATLAB files, recognised by their content.
+    output
+        A file (.parquet, .csv, or .tum for a trajectory in TUM text) for one FILE, or a folder for any number.
+    plot
+        A picture of the attitude (.png, .svg, .pdf); a folder for several FILEs.
+    frame
+        The Earth frame to write: east-north-up, north-east-down or north-west-up.
+    json
+        Print the summary as JSON.
+    """
+    reading, running = reading or Reading(), running or Running()
+    try:
+        running.build()
+        reading.as_arguments()
+        targets = _targets(files, output, ".attitude.parquet", _WRITABLE, "--output")
+        pictures = _targets(files, plot, ".attitude.png", (".png", ".svg", ".pdf"), "--plot") if plot else {}
+
+        def work(file: Path, tell: Callable[[str, float], None]) -> dict[str, Any]:
+            tell("reading", 0.0)
+            recording = reading.read(file)
+            tell("estimating (a first run compiles the method)", 0.2)
+            n = max(len(recording), 1)
+            attitude = running.estimate(recording, progress=lambda done: tell("estimating", 0.2 + 0.6 * done / n))
+            return _finished(file, recording, attitude.to(frame), targets[file], pictures.get(file), tell)
+
+        results, code = show.each(files, work)
+    except UsageError as error:
+        show.problem(error)
+        return 2
+    _report(results, running.method, json)
+    return code
+
+
+def _finished(
+    file: Path,
+    recording: Recording,
+    attitude: Attitude,
+    target: Path,
+    picture: Path | None,
+    tell: Callable[[str, float], None],
+) -> dict[str, Any]:
+    """Write the attitude and its picture; the line of the summary."""
+    from poise.evaluation import evaluate
+    from poise.formats import write
+
+    tell("writing", 0.8)
+    write(attitude, target)
+    errors = evaluate(attitude, recording) if recording.truth is not None else None
+    if picture:
+        from poise.plots import attitude_figure, save_figure
+
+        tell("drawing", 0.9)
+        save_figure(attitude_figure(attitude, recording, errors, title=recording.name), picture)
+    return {
+        "file": str(file),
+        "output": str(target),
+        "plot": str(picture) if picture else None,
+        "rows": len(recording),
+        "seconds": recording.duration,
+        "rate_hz": recording.rate_hz,
+        "valid": float(attitude.valid.mean()) if len(attitude) else float("nan"),
+        "heading": attitude.heading_reference,
+        "frame": attitude.frame,
+        "error_deg": errors.rmse_deg()._asdict() if errors else None,
+        "notes": list(recording.notes),
+    }
+
+
+def _report(results: list[dict[str, Any]], method: str, json: bool) -> None:
+    if json:
+        show.as_json({"method": method, "results": results})
+        return
+    if not results:
+        return
+    with_truth = any(result["error_deg"] for result in results)
+    columns = ["file", "s", "Hz", "rows", "valid", "heading", "written to"]
+    rows = []
+    for result in results:
+        row = [
+            Path(result["file"]).name,
+            result["seconds"],
+            result["rate_hz"],
+            result["rows"],
+            f"{result['valid']:.1%}",
+            result["heading"],
+            result["output"],
+        ]
+        if with_truth:
+            row.append(result["error_deg"]["total"] if result["error_deg"] else float("nan"))
+        rows.append(row)
+    show.table(f"{method}: attitudes", columns + ["error °"] * with_truth, rows)
+    for result in results:
+        for text in result["notes"]:
+            show.note(f"{Path(result['file']).name}: {text}")
+        if result["plot"]:
+            show.note(f"{Path(result['file']).name}: picture in {result['plot']}")
+
+
+def _targets(files: list[Path], target: Path | None, ending: str, known: tuple[str, ...], option: str) -> dict[Path, Path]:
+    """Where each file's result goes; never on top of an input or of one another."""
+    if target is None:
+        places = {file: Path(file.stem + ending) for file in files}
+    elif target.suffix.lower() in known and not target.is_dir():
+        if len(files) != 1:
+            usage(f"{option} {target} is one file, for {len(files)} recordings; give a folder")
+        places = {files[0]: target}
+    elif target.suffix and not target.is_dir():
+        usage(f"{option} {target}: expected a folder, or a file ending in {', '.join(known)}")
+    else:
+        places = {file: target / (file.stem + ending) for file in files}
+    inputs = {file.resolve() for file in files}
+    taken: dict[Path, Path] = {}
+    for file, place in places.items():
+        if place.resolve() in inputs:
+            usage(f"{option} {place} is one of the recordings; nothing is written over an input")
+        if place in taken:
+            usage(f"{taken[place]} and {file} would both be written to {place}; estimate them into two folders")
+        taken[place] = file
+    return places

@@ -1,0 +1,181 @@
+"""Options that several commands share, and what they mean."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import date as Date
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+
+from cyclopts import Group, Parameter
+
+from poise.errors import PoiseError
+
+if TYPE_CHECKING:
+    from poise.data.attitude import Attitude
+    from poise.data.recording import Recording
+
+FILE = Group("What the file does not say", sort_key=1)
+METHOD = Group("The method", sort_key=2)
+
+
+class UsageError(PoiseError):
+    """An option that cannot be understood: exit code 2."""
+
+
+def usage(message: str) -> NoReturn:
+    raise UsageError(message)
+
+
+@Parameter(name="*", group=FILE)
+@dataclass(frozen=True)
+class Reading:
+    """How to read files; what a file says itself needs no option."""
+
+    columns: str | None = None
+    """Names for a file without a header, in order: `time,gx,gy,gz,ax,ay,az,mx,my,mz`, with units if you like
+    (`gx[deg/s]`), `-` for a column to skip."""
+
+    units: str | None = None
+    """Units the header does not name: `gyr=deg/s,acc=g,time=ms`."""
+
+    delimiter: str | None = None
+    """What separates columns: `,` `;` `tab` `space`."""
+
+    decimal: str | None = None
+    """The decimal mark: `.` or `,`."""
+
+    rate: float | None = None
+    """Samples per second, for a file without time stamps."""
+
+    remap: str | None = None
+    """Rename the sensor's axes: `--remap "y -x z"` makes x its y, y its -x, z its z."""
+
+    def read(self, path: Path) -> Recording:
+        from poise.formats import read
+
+        recording = read(path, **self.as_arguments())
+        return recording.remap(self.remap) if self.remap else recording
+
+    def as_arguments(self) -> dict[str, Any]:
+        delimiter = {"tab": "\t", "space": " "}.get(self.delimiter or "", self.delimiter)
+        return {
+            "columns": self.columns,
+            "units": _pairs(self.units, "--units", "gyr=deg/s,acc=g"),
+            "delimiter": delimiter,
+            "decimal": self.decimal,
+            "rate": self.rate,
+        }
+
+
+@Parameter(name="*", group=METHOD)
+@dataclass(frozen=True)
+class Running:
+    """Which method, with which parameters, and where north is."""
+
+    method: Annotated[str, Parameter(name=["--method", "-m"])] = "two-stage"
+    """One of those that `poise methods` lists."""
+
+    set_: Annotated[tuple[str, ...], Parameter(name="--set", negative="")] = ()
+    """A parameter of the method: `--set mag_noise=0.2`; repeat for more. `poise methods METHOD` lists them."""
+
+    declination: float | None = None
+    """Degrees from true to magnetic north, east positive: headings become true."""
+
+    place: str | None = None
+    """`LAT,LON` in degrees: looks the declination up in the world magnetic model, with --date."""
+
+    date: str | None = None
+    """The day of the recording, `YYYY-MM-DD`, for --place."""
+
+    rest_bias: bool = True
+    """Measure the gyroscope's bias whenever the sensor rests."""
+
+    def build(self) -> Any:
+        """The method with its parameters; :class:`UsageError` where they cannot be."""
+        from poise.estimators import METHODS
+        from poise.estimators.parameters import parameters, prepared
+
+        if self.method not in METHODS:
+            usage(f"no method {self.method!r}; there are {', '.join(METHODS)}")
+        cls = METHODS[self.method]
+        kinds = {p.name: p for p in parameters(cls)}
+        chosen: dict[str, Any] = {}
+        for text in self.set_:
+            name, _, value = text.partition("=")
+            name = name.strip().replace("-", "_")
+            if name not in kinds or not value:
+                usage(f"--set {text!r}: expected NAME=VALUE with a NAME of {self.method}: {', '.join(kinds)}")
+            chosen[name] = _parsed(value.strip(), kinds[name].kind)
+        if (angle := self._declination()) is not None:
+            if "declination" not in kinds:
+                usage(f"{self.method} has no heading from a magnetometer, so a declination means nothing to it")
+            chosen["declination"] = angle
+        try:
+            method = cls(**chosen)
+            prepared(method)
+        except PoiseError as error:
+            usage(str(error))
+        return method
+
+    def estimate(
+        self,
+        recording: Recording,
+        start: Attitude | None = None,
+        progress: Callable[[int], None] | None = None,
+    ) -> Attitude:
+        from poise.estimators.engine import estimate
+
+        return estimate(self.build(), recording, start, rest_bias=self.rest_bias, progress=progress)
+
+    def _declination(self) -> float | None:
+        if self.place is None:
+            if self.date is not None:
+                usage("--date goes with --place LAT,LON")
+            return None if self.declination is None else _checked_declination(self.declination)
+        if self.declination is not None:
+            usage("--declination and --place say the same thing; give one")
+        from poise.magnetic_model import declination
+
+        if self.date is None:
+            usage("--place needs --date YYYY-MM-DD: declination changes over the years")
+        try:
+            latitude, longitude = (float(part) for part in self.place.split(","))
+            when = Date.fromisoformat(self.date)
+        except ValueError:
+            usage(f"--place {self.place} --date {self.date}: expected LAT,LON in degrees and YYYY-MM-DD")
+        try:
+            return declination(latitude, longitude, when)
+        except PoiseError as error:
+            usage(str(error))
+
+
+def _checked_declination(degrees: float) -> float:
+    if not -180.0 <= degrees <= 180.0:
+        usage(f"--declination {degrees}: expected degrees in ±180, east positive")
+    return math.radians(degrees)
+
+
+def _parsed(text: str, kind: Any) -> Any:
+    if kind is bool and text.lower() in ("true", "yes", "on", "1", "false", "no", "off", "0"):
+        return text.lower() in ("true", "yes", "on", "1")
+    if kind in (int, float):
+        try:
+            return float(text)
+        except ValueError:
+            return text
+    return text
+
+
+def _pairs(text: str | None, option: str, example: str) -> dict[str, str] | None:
+    if text is None:
+        return None
+    found = {}
+    for part in text.split(","):
+        name, equals, value = part.partition("=")
+        if not (name.strip() and equals and value.strip()):
+            usage(f"{option} {text!r}: expected pairs such as {example}")
+        found[name.strip()] = value.strip()
+    return found

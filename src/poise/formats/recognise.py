@@ -1,0 +1,99 @@
+"""What a file is, by its content: which reader takes it, or why none does."""
+
+from __future__ import annotations
+
+import stat
+from pathlib import Path
+
+from poise.errors import FormatError
+from poise.formats.limits import Limits
+
+_MAGIC = (
+    (b"PAR1", "parquet"),
+    (b"PK\x03\x04", "zip"),
+    (b"PK\x05\x06", "zip"),
+    (b"\x93NUMPY", "one array of numpy's (.npy); save several with names: numpy.savez(file, time=…, gyr=…, acc=…)"),
+    (b"MATLAB 7.3", "a MATLAB v7.3 (HDF5) file; save it as save('name.mat', ..., '-v7')"),
+    (b"MATLAB", "mat"),
+    (b"\x89HDF", "an HDF5 file; export it as CSV, Parquet or npz"),
+    (b"#ROSBAG", "a ROS 1 bag; export its sensor_msgs/Imu topic as CSV"),
+    (b"\x89MCAP", "an MCAP log; export its Imu topic as CSV"),
+    (b"SQLite format 3", "an SQLite database (a ROS 2 bag?); export its Imu topic as CSV"),
+    (b"ULog\x01\x12", "a PX4 ULog; export sensor_combined as CSV (ulog2csv)"),
+    (b"\xa3\x95\x80", "an ArduPilot log; export its IMU and MAG messages as CSV"),
+    (b"\x1f\x8b", "gzip data; unpack it first: gunzip FILE"),
+    (b"BZh", "bzip2 data; unpack it first"),
+    (b"\xfd7zXZ", "xz data; unpack it first"),
+    (b"\x28\xb5\x2f\xfd", "zstandard data; unpack it first"),
+    (b"7z\xbc\xaf", "a 7z archive; unpack it first"),
+    (b"ARROW1", "an Arrow/Feather file; write it as Parquet"),
+    (b"%PDF", "a PDF document"),
+    (b"\x89PNG", "a PNG image"),
+    (b"\xff\xd8\xff", "a JPEG image"),
+    (b"GIF8", "a GIF image"),
+    (b"\x7fELF", "a program"),
+    (b"\x80\x02", "a Python pickle, which is never opened: it can run anything; save numbers with numpy.savez"),
+    (b"\x80\x03", "a Python pickle, which is never opened: it can run anything; save numbers with numpy.savez"),
+    (b"\x80\x04", "a Python pickle, which is never opened: it can run anything; save numbers with numpy.savez"),
+    (b"\x80\x05", "a Python pickle, which is never opened: it can run anything; save numbers with numpy.savez"),
+    (b"<!DOCTYPE", "a web page"),
+    (b"<html", "a web page"),
+    (b"<?xml", "an XML document"),
+)
+_TEXT_BOMS = (b"\xff\xfe", b"\xfe\xff", b"\xef\xbb\xbf")
+_READABLE = "; poise reads CSV and other text tables, Parquet, npz and MATLAB files up to v7"
+
+
+def check(where: str, path: Path, limits: Limits) -> None:
+    """Raises :class:`FormatError` where *path* is no regular file, cannot be opened, is empty or too large."""
+    try:
+        found = path.stat()
+        if not stat.S_ISREG(found.st_mode):
+            kind = "a folder" if stat.S_ISDIR(found.st_mode) else "a device or pipe"
+            raise FormatError(f"{where}: {kind}, expected a file")
+        with path.open("rb") as file:
+            file.read(1)
+    except (OSError, ValueError) as problem:
+        reason = getattr(problem, "strerror", None) or str(problem)
+        raise FormatError(f"{where}: cannot be opened: {reason}") from None
+    if not found.st_size:
+        raise FormatError(f"{where}: the file is empty")
+    limits.check(where, "size", found.st_size)
+
+
+def kind(where: str, path: Path) -> str:
+    """Which reader takes the file: "text", "parquet", "npz" or "mat"; raises :class:`FormatError` where none does."""
+    with path.open("rb") as file:
+        head = file.read(4096)
+    for magic, what in _MAGIC:
+        if head.startswith(magic):
+            if what == "zip":
+                return _zip(where, path)
+            if what in ("parquet", "mat"):
+                return what
+            raise FormatError(f"{where}: {what}" + (_READABLE if ";" not in what else ""))
+    if head[124:128] in (b"\x00\x01IM", b"\x01\x00MI"):
+        return "mat"
+    if not head.startswith(_TEXT_BOMS) and _is_binary(head[:512]):
+        raise FormatError(f"{where}: binary data of no kind that is known{_READABLE}")
+    return "text"
+
+
+def _is_binary(head: bytes) -> bool:
+    control = sum(byte < 32 and byte not in b"\t\n\v\f\r" for byte in head)
+    return control > 0.1 * len(head) or not any(byte in b"0123456789,;\n\r\t " for byte in head)
+
+
+def _zip(where: str, path: Path) -> str:
+    import zipfile
+
+    try:
+        with zipfile.ZipFile(path) as archive:
+            inside = archive.namelist()
+    except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError, EOFError) as problem:
+        raise FormatError(f"{where}: damaged zip or npz file ({problem}); copy it again") from None
+    if inside and all(name.endswith(".npy") for name in inside):
+        return "npz"
+    if "[Content_Types].xml" in inside:
+        raise FormatError(f"{where}: an office document; save the sheet as CSV")
+    raise FormatError(f"{where}: a zip archive of {len(inside)} files; unpack it and read the files one by one")

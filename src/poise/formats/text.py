@@ -1,0 +1,229 @@
+"""CSV, TSV and other text tables: parsed a block of whole lines at a time, strictly."""
+
+from __future__ import annotations
+
+import codecs
+import io
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+
+from poise.errors import FormatError
+from poise.formats import names, text_head
+from poise.formats.limits import Limits, Options
+from poise.formats.table import KIND, Blocks, Floats, Table
+from poise.formats.text_head import Dialect
+
+_BLOCK = 4 * 2**20  # bytes
+_COMMENT = re.compile(rb"(?m)^[ \t]*(?:#|//|%)[^\n]*")
+_MARKS = (b"#", b"/", b"%")  # single bytes are found fastest
+
+
+def read(path: Path, options: Options) -> Table:
+    """The table in a text file. Raises :class:`FormatError` with line, column and reason where a row is not right."""
+    where = str(path)
+    with path.open("rb") as file:
+        head = file.read(4 * options.limits.line)
+        whole = not file.read(1)
+        dialect = text_head.inspect(where, head, whole, options)
+        if dialect.facts.get(KIND) == "attitude":
+            raise FormatError(f"{where}: an attitude that poise wrote, not a recording; read it with read_attitude")
+        header = names.renamed(where, dialect.names, options.columns, len(dialect.first))
+        layout = names.choose(where, header, timed=options.rate is not None)
+        columns = {key: column.index for key, column in layout.columns.items()}
+        values, notes, doubts = parse(where, file, dialect, columns, options.limits)
+    said = [*dialect.notes, *layout.notes, *notes]
+    calendar = dialect.iso(columns.get("time"))
+    return Table(dialect.sentence, layout, values, dialect.facts, None, "s" if calendar else "", said, doubts)
+
+
+def parse(
+    where: str, file: BinaryIO, dialect: Dialect, columns: dict[str, int], limits: Limits
+) -> tuple[dict[str, Floats], list[str], list[str]]:
+    """The named *columns* (key to index) of all rows as float64, with notes and doubts about the end of the file."""
+    parser = _Parser(where, dialect, columns)
+    blocks = Blocks(len(columns))
+    notes: list[str] = []
+    doubts: list[str] = []
+    for line, block, ended in _lines(where, file, dialect, limits):
+        if not ended:
+            if parser.is_cut(block):
+                notes.append(f"line {line}: the last row is cut short and left out")
+                continue
+            doubts.append("the file does not end with a line break: its last row may be cut short")
+        rows = parser.rows(line, block)
+        if rows is not None:
+            blocks.add(rows)
+            limits.check(where, "rows", blocks.rows)
+    if not blocks.rows:
+        raise FormatError(f"{where}: no whole row of numbers found; expected one sample a line")
+    return dict(zip(columns, blocks.columns(), strict=True)), notes, doubts
+
+
+def _lines(where: str, file: BinaryIO, dialect: Dialect, limits: Limits) -> Iterator[tuple[int, bytes, bool]]:
+    """Blocks of whole lines as UTF-8 with \\n, each with its first line's number; last what no line break ends."""
+    file.seek(dialect.bom)
+    decoder = codecs.getincrementaldecoder(dialect.encoding)() if dialect.encoding != "utf-8" else None
+    line, rest, skip = 1, b"", dialect.skip
+    while raw := file.read(_BLOCK):
+        block = rest + (_transcode(where, line, decoder, raw) if decoder else raw)
+        held = b"\r" if block.endswith(b"\r") else b""  # perhaps half of \r\n
+        if b"\r" in block:
+            block = block[: len(block) - len(held)].replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+        cut = block.rfind(b"\n") + 1
+        rest, block = block[cut:] + held, block[:cut]
+        count = _check_lines(where, line, block, rest, limits)
+        if block:
+            for first, part in _without(block, line, skip):
+                yield first, part, True
+            line, skip = line + count, max(0, skip - count)
+    if rest.endswith(b"\r"):
+        yield line, rest[:-1] + b"\n", True
+    elif rest.strip():
+        yield line, rest, False
+
+
+def _without(block: bytes, line: int, skip: int) -> Iterator[tuple[int, bytes]]:
+    start = 0
+    for _ in range(min(skip, block.count(b"\n"))):
+        start = block.index(b"\n", start) + 1
+        line += 1
+    if block[start:]:
+        yield line, block[start:] if start else block
+
+
+def _transcode(where: str, line: int, decoder: Any, raw: bytes) -> bytes:
+    try:
+        return bytes(decoder.decode(raw).encode("utf-8"))
+    except UnicodeError as problem:
+        raise FormatError(f"{where}: after line {line}: not UTF-16 text ({problem}); the file is damaged") from None
+
+
+def _check_lines(where: str, line: int, block: bytes, rest: bytes, limits: Limits) -> int:
+    """How many lines end in *block*; raises where one is too long or holds NUL bytes."""
+    ends = np.flatnonzero(np.frombuffer(block, np.uint8) == 10)
+    lengths = np.diff(ends, prepend=-1)
+    longest = int(np.argmax(lengths)) if len(lengths) else 0
+    if len(rest) > limits.line:
+        limits.check(f"{where}: line {line + len(ends)}", "line", len(rest))
+    if len(lengths):
+        limits.check(f"{where}: line {line + longest}", "line", int(lengths[longest]) - 1)
+    nul = block.find(b"\0")
+    if nul >= 0 or b"\0" in rest:
+        row = line + (int(np.searchsorted(ends, nul)) if nul >= 0 else len(ends))
+        raise FormatError(
+            f"{where}: line {row}: NUL bytes, which text does not have; the file is damaged (a logger lost power?). "
+            "Cut it before this line"
+        )
+    return len(ends)
+
+
+@dataclass
+class _Parser:
+    """Turns blocks of lines into columns of float64 for one file."""
+
+    where: str
+    dialect: Dialect
+    columns: dict[str, int]
+
+    def rows(self, line: int, block: bytes) -> list[Floats] | None:
+        """The wanted columns of one block; None where it holds no row."""
+        if any(mark in block for mark in _MARKS):
+            block = _COMMENT.sub(b"", block)
+        if self.dialect.delimiter == " ":
+            block = re.sub(rb"(?m)^ | $", b"", re.sub(rb"[ \t]+", b" ", block))
+        if not block.strip():
+            return None
+        import pyarrow
+
+        try:
+            table = self._parse(block)
+        except pyarrow.ArrowException as problem:
+            self._refuse(line, block, str(problem))
+        expected = block.count(b"\n") + (not block.endswith(b"\n"))
+        if table.num_rows != expected:
+            expected -= len(re.findall(rb"(?m)^\n", block))
+            if table.num_rows != expected:
+                self._refuse(line, block, f"{expected} lines gave {table.num_rows} rows")
+        return [self._floats(table.column(f"c{index}")) for index in self.columns.values()]
+
+    def _parse(self, block: bytes) -> Any:
+        import pyarrow
+        from pyarrow import csv
+
+        width = [f"c{i}" for i in range(len(self.dialect.first))]
+        types: dict[str, Any] = {f"c{index}": pyarrow.float64() for index in self.columns.values()}
+        time = self.columns.get("time")
+        if time is not None and self.dialect.iso(time):
+            zoned = not re.search(r"\d$", cell := self.dialect.first[time]) or bool(re.search(r":\d\d.*[+-]\d\d", cell))
+            types[f"c{time}"] = pyarrow.timestamp("ns", "UTC" if zoned else None)
+        return csv.read_csv(
+            io.BytesIO(block),
+            csv.ReadOptions(use_threads=False, block_size=max(len(block) + 1, 1024), column_names=width),
+            csv.ParseOptions(delimiter=self.dialect.delimiter, quote_char='"' if b'"' in block else False),
+            csv.ConvertOptions(
+                column_types=types,
+                include_columns=list(types),
+                null_values=list(text_head.MISSING),
+                decimal_point=self.dialect.decimal,
+            ),
+        )
+
+    def _floats(self, column: Any) -> Floats:
+        values = column.to_numpy()
+        if values.dtype.kind == "M":
+            micro = values.astype("datetime64[us]")  # as float64 exact, unlike nanoseconds
+            return np.where(np.isnat(micro), np.nan, micro.astype(np.int64) / 1e6)
+        return np.asarray(values, dtype=np.float64)
+
+    def is_cut(self, line: bytes) -> bool:
+        """Whether the last line, which no line break ends, is the beginning of a row only."""
+        cells = text_head.split(line.decode("utf-8", "replace"), self.dialect.delimiter)
+        if len(cells) < len(self.dialect.first):
+            return True
+        last = len(self.dialect.first) - 1
+        return len(cells) == last + 1 and last in self.columns.values() and not self._is_value(last, cells[last])
+
+    def _is_value(self, index: int, cell: str) -> bool:
+        if cell in text_head.MISSING:
+            return True
+        if index == self.columns.get("time") and self.dialect.iso(index):
+            return text_head.ISO.fullmatch(cell) is not None
+        return text_head.number_pattern(self.dialect.decimal).fullmatch(cell) is not None
+
+    def _refuse(self, line: int, block: bytes, problem: str) -> Any:
+        """Find the first line of *block* that is not right and say why."""
+        width = len(self.dialect.first)
+        keys = {index: key for key, index in self.columns.items()}
+        for number, raw in enumerate(block.decode("utf-8", "replace").split("\n"), line):
+            cells = text_head.split(raw, self.dialect.delimiter)
+            if not raw:
+                continue
+            bad = [i for i in keys if i < len(cells) and not self._is_value(i, cells[i])]
+            if len(bad) > len(keys) / 2 or tuple(cells) == self.dialect.names:
+                raise FormatError(
+                    f"{self.where}: line {number}: text where numbers were expected ({raw[:60]!r}): "
+                    "a second log begins here? Split the file and read the parts one by one"
+                )
+            if len(cells) != width:
+                raise FormatError(
+                    f"{self.where}: line {number}: {len(cells)} cells, expected {width} like the first row; "
+                    "correct or delete the line"
+                )
+            if bad:
+                label = (self.dialect.names or ())[bad[0] : bad[0] + 1]
+                raise FormatError(
+                    f"{self.where}: line {number}, column {bad[0] + 1} ({label[0] if label else keys[bad[0]]}): "
+                    f"found {cells[bad[0]][:40]!r}, expected a number{self._advice(cells[bad[0]])}"
+                )
+        raise FormatError(f"{self.where}: after line {line}: {problem}")
+
+    def _advice(self, cell: str) -> str:
+        other = "," if self.dialect.decimal == "." else "."
+        if text_head.number_pattern(other).fullmatch(cell):
+            return f'; if the decimal sign is "{other}", say --decimal "{other}"'
+        return "; leave the cell empty where a sample is missing"

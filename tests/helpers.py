@@ -1,0 +1,55 @@
+"""What several test files need: NamedTuples as arrays, the plain Python behind a kernel, comparison of rotations."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.spatial.transform import Rotation
+
+Floats = NDArray[np.float64]
+
+
+def plain(function: Callable[..., Any]) -> Callable[..., Any]:
+    """The Python function that a kernel was compiled from."""
+    return getattr(function, "py_func", function)
+
+
+def array(value: Any) -> Floats:
+    """A vector, quaternion or matrix of NamedTuples as an array of its shape."""
+    return np.array(value, float)
+
+
+def flat(value: Any) -> list[float]:
+    """Every number in nested tuples, in order."""
+    return [number for part in value for number in flat(part)] if isinstance(value, tuple) else [float(value)]
+
+
+def random_quats(n: int, seed: int = 0) -> Floats:
+    """(n, 4) w x y z, evenly spread over all attitudes."""
+    q = np.random.default_rng(seed).normal(size=(n, 4))
+    return q / np.linalg.norm(q, axis=1, keepdims=True)
+
+
+def rotation(quat: ArrayLike) -> Rotation:
+    """The scipy Rotation of w x y z."""
+    return Rotation.from_quat(np.asarray(quat, float)[..., [1, 2, 3, 0]])
+
+
+def wxyz(turn: Rotation) -> Floats:
+    """w x y z of a scipy Rotation."""
+    return turn.as_quat()[..., [3, 0, 1, 2]]
+
+
+def angle_between(p: ArrayLike, q: ArrayLike) -> Floats:
+    """The angle, rad, between attitudes given as w x y z; q and −q are one attitude."""
+    return np.asarray((rotation(p).inv() * rotation(q)).magnitude())
+
+
+def assert_same_attitude(p: ArrayLike, q: ArrayLike, atol: float = 1e-12) -> None:
+    """Quaternions equal up to sign, row by row."""
+    p, q = np.atleast_2d(np.asarray(p, float)), np.atleast_2d(np.asarray(q, float))
+    sign = np.where(np.sum(p * q, axis=1, keepdims=True) < 0, -1.0, 1.0)
+    np.testing.assert_allclose(sign * p, q, rtol=0, atol=atol)
