@@ -56,7 +56,7 @@ SAME = {
     "leading blanks": "  " + (HEADER.replace(" (", "(") + ROWS).replace(",", " ").replace("\n", " \n "),
     "blanks after commas": (HEADER + ROWS).replace(",", ", "),
     "sep line": "sep=;\n" + (HEADER + ROWS).replace(",", ";"),
-    "comments": "# made by hand\n// x\n% y\n\n" + HEADER + "# between\n" + ROWS + "\n# after\n",
+    "comments": "# made by hand\n// x\n% y\n\n" + HEADER + "# between\n" + ROWS + "\n# after\n# end",
     "header in a comment": "# " + HEADER.replace(" (", "(").replace(",", " ") + ROWS.replace(",", " "),
     "title lines": "Logger 3000\nmade today\n" + HEADER + ROWS,
     "unit line": "time,gx,gy,gz,ax,ay,az,mx,my,mz\ns,rad/s,rad/s,rad/s,m/s²,m/s²,m/s²,µT,µT,µT\n" + ROWS,

@@ -180,6 +180,21 @@ def test_a_failure_leaves_the_old_file_and_nothing_else(tmp_path, kind, monkeypa
     assert path.read_bytes() == before and list(tmp_path.iterdir()) == [path]
 
 
+def test_a_flipped_bit_in_parquet_is_noticed(tmp_path):
+    path = write(recording(), tmp_path / "a.parquet")
+    content = bytearray(path.read_bytes())
+    noticed = 0
+    for place in range(1000, len(content) - 8000, 997):
+        flipped = content.copy()
+        flipped[place] ^= 16
+        path.write_bytes(flipped)
+        try:
+            assert_same(recording(), read(path))
+        except FormatError:
+            noticed += 1
+    assert noticed > 10
+
+
 @pytest.mark.parametrize("kind", FORMATS)
 def test_written_twice_the_same_bytes(tmp_path, kind):
     first, second = (write(recording(), tmp_path / f"{name}.{kind}").read_bytes() for name in "ab")

@@ -57,13 +57,8 @@ class Recording:
     """what a reader had to say about the file"""
 
     def __post_init__(self) -> None:
-        time = _numbers("time", self.time)
-        if time.ndim != 1:
-            raise RecordingError(f"time: expected (n,) seconds, found shape {time.shape}")
-        n = len(time)
-        values: dict[str, Any] = {"time": time}
-        for name in ("gyr", "acc", "mag"):
-            values[name] = _rows(name, getattr(self, name), (n, 3), np.nan)
+        values: dict[str, Any] = samples(self.time, self.gyr, self.acc, self.mag)
+        n = len(values["time"])
         for name in ("acc_age", "mag_age"):
             values[name] = _rows(name, getattr(self, name), (n,), 0.0)
         if self.moving is not None:
@@ -76,7 +71,7 @@ class Recording:
             raise RecordingError(f"gravity: expected about 9.8 m/s², found {self.gravity}")
         for name, value in values.items():
             object.__setattr__(self, name, value)
-        _check_unit_of_time(time)
+        _check_unit_of_time(values["time"])
 
     @classmethod
     def at_rate(cls, rate: float, gyr: ArrayLike, acc: ArrayLike, mag: ArrayLike | None = None, **facts: Any) -> Recording:
@@ -173,6 +168,19 @@ class Recording:
 FIELDS = tuple(field.name for field in fields(Recording))
 
 
+def samples(time: Any, gyr: Any, acc: Any, mag: Any) -> dict[str, Floats]:
+    """The four as contiguous float64 arrays (n,) and (n, 3), an absent sensor as NaN.
+
+    Raises :class:`RecordingError` naming the argument, the expected and the found shape.
+    """
+    stamps = _numbers("time", time)
+    if stamps.ndim != 1:
+        raise RecordingError(f"time: expected (n,) seconds, found shape {stamps.shape}")
+    shape = (len(stamps), 3)
+    sensors = {"gyr": gyr, "acc": acc, "mag": mag}
+    return {"time": stamps} | {name: _rows(name, values, shape, np.nan) for name, values in sensors.items()}
+
+
 def _numbers(name: str, values: Any) -> Floats:
     try:
         if np.ma.isMaskedArray(values):
@@ -217,13 +225,13 @@ def _place(name: str, rows: Floats, time: ArrayLike, values: ArrayLike) -> tuple
     stamps = _numbers(f"{name} time", time)
     if stamps.ndim != 1:
         raise RecordingError(f"{name} time: expected (n,) seconds, found shape {stamps.shape}")
-    samples = _rows(name, values, (len(stamps), 3), np.nan)
-    usable = np.isfinite(stamps) & np.isfinite(samples).all(axis=1)
+    given = _rows(name, values, (len(stamps), 3), np.nan)
+    usable = np.isfinite(stamps) & np.isfinite(given).all(axis=1)
     row = np.searchsorted(rows, stamps, side="left")
     usable &= row < len(rows)
-    row, stamps, samples = row[usable], stamps[usable], samples[usable]
+    row, stamps, given = row[usable], stamps[usable], given[usable]
     count = np.bincount(row, minlength=len(rows)).astype(float)
     with np.errstate(invalid="ignore"):
-        placed = np.column_stack([np.bincount(row, samples[:, i], len(rows)) / count for i in range(3)])
+        placed = np.column_stack([np.bincount(row, given[:, i], len(rows)) / count for i in range(3)])
         age = np.bincount(row, rows[row] - stamps, len(rows)) / count
     return placed, np.where(count > 0, age, 0.0)

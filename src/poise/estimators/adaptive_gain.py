@@ -54,36 +54,36 @@ class State(NamedTuple):
 class AdaptiveGain(NamedTuple):
     """Complementary filter on the rate: the gain falls back to a preset constant where the object accelerates."""
 
-    k_rest: Annotated[float, "1/s", "correction gain without motion acceleration"] = 0.5
-    k_fast: Annotated[float, "1/s", "preset gain where the motion acceleration exceeds the threshold"] = 0.1
-    threshold: Annotated[float, "m/s²", "motion acceleration above which k_fast holds"] = 1.0
-    gain: Annotated[Literal["linear", "gaussian"], "", "how the gain goes from k_rest to k_fast"] = "linear"
-    gain_width: Annotated[float, "m/s²", "width of the gaussian gain"] = 0.5
+    k_rest: Annotated[float, "1/s", "correction gain without motion acceleration"] = 0.15
+    k_fast: Annotated[float, "1/s", "preset gain where the motion acceleration exceeds the threshold"] = 0.001
+    threshold: Annotated[float, "m/s²", "motion acceleration above which k_fast holds"] = 5.0
+    gain: Annotated[Literal["linear", "gaussian"], "choice", "how the gain goes from k_rest to k_fast"] = "gaussian"
+    gain_width: Annotated[float, "m/s²", "width of the gaussian gain"] = 6.0
     rest_sensors: Annotated[
-        Literal["acc", "gyr", "mag", "acc+gyr", "acc+mag", "gyr+mag", "acc+gyr+mag"], "", "what must be still for rest"
+        Literal["acc", "gyr", "mag", "acc+gyr", "acc+mag", "gyr+mag", "acc+gyr+mag"], "choice", "what must be still for rest"
     ] = "acc+gyr"
     rest_acc: Annotated[float, "m/s²", "largest distance of a still specific force from its mean"] = 0.5
     rest_gyr: Annotated[float, "rad/s", "largest rate at rest"] = 0.05
     rest_mag: Annotated[float, "rad", "largest angle of a still field from its mean"] = 0.02
     rest_time: Annotated[float, "s", "how long all chosen sensors must be still"] = 0.5
     deviation: Annotated[
-        Literal["rate-norm", "rate-cross", "euler-sum"], "", "measure δ between a step with w and one with w_c"
+        Literal["rate-norm", "rate-cross", "euler-sum"], "choice", "measure δ between a step with w and one with w_c"
     ] = "rate-norm"
     check: Annotated[
-        Literal["relative", "absolute", "off"], "", "|δ − µ| > n·s (claim 9), δ − µ > a threshold (claim 8), or neither"
-    ] = "relative"
-    check_factor: Annotated[float, "", "n of the relative check"] = 3.0
-    check_threshold: Annotated[float, "rad/s, rad²/s² or rad", "threshold of the absolute check"] = 0.1
-    check_window: Annotated[int, "samples", "how far back µ and s reach", (1, inf)] = 500
+        Literal["relative", "absolute", "off"], "choice", "|δ − µ| > n·s (claim 9), δ − µ > a threshold (claim 8), or neither"
+    ] = "absolute"
+    check_factor: Annotated[float, "1", "n of the relative check"] = 3.0
+    check_threshold: Annotated[float, "rad/s, rad²/s² or rad", "threshold of the absolute check"] = 0.00065
+    check_window: Annotated[int, "samples", "how far back µ and s reach", (1, inf)] = 10000
     check_min_count: Annotated[int, "samples", "how many deviations must be known before any is judged"] = 100
-    check_floor: Annotated[float, "rad/s, rad²/s² or rad", "smallest s that is believed"] = 0.01
-    k_forced: Annotated[float, "1/s", "preset gain where the deviation stands out"] = 0.1
+    check_floor: Annotated[float, "rad/s, rad²/s² or rad", "smallest s that is believed"] = 0.001
+    k_forced: Annotated[float, "1/s", "preset gain where the deviation stands out"] = 0.025
     declination: Annotated[float, "rad", "true heading = magnetic heading + D, east positive", (-pi, pi)] = 0.0
 
     @classmethod
     def as_printed(cls) -> Self:
-        """The print's choices: claim 8's absolute check on claim 11's first measure, the linear gain."""
-        return cls(gain="linear", deviation="rate-norm", check="absolute")
+        """The print's choices: the linear gain of claim 6, the absolute check of claim 8 on claim 11's first measure."""
+        return cls(gain="linear")
 
     def start(self, sample: Sample, bias: Vec3) -> State:
         attitude = attitude_of(sample.acc, sample.mag, self.declination)

@@ -14,14 +14,14 @@ from numpy.typing import ArrayLike, NDArray
 from poise.data.attitude import BIAS, COLUMNS, QUAT, Attitude, HeadingReference, Provenance
 from poise.data.flags import LOST, SILENT
 from poise.data.packet import Packet, Sample
-from poise.data.recording import Recording
+from poise.data.recording import Recording, samples
 from poise.errors import MethodError, RecordingError, StateError
 from poise.estimators.guard import Guard
 from poise.estimators.parameters import as_dict, prepared
 from poise.estimators.protocol import output, resting_sample, start, step
 from poise.estimators.rest_bias import RestBias
 from poise.math import arrays
-from poise.math.compiled import compiled, direct, entry, memory_class
+from poise.math.compiled import Memory, compiled, direct, entry
 from poise.math.quaternions import Quat, inner
 from poise.math.vectors import Vec3
 
@@ -34,12 +34,15 @@ _TIME, _GYR, _ACC, _MAG, _ACC_AGE, _MAG_AGE, _WIDTH = 0, 1, 4, 7, 10, 11, 12
 _CLOCK, _FIRST, _LAST, _TURN, _ASIDE = 0, 1, 2, 6, 10
 _BLOCK = 500_000  # rows between two reports of progress
 
-_Memory = memory_class("Memory", ["method", "state"])
-
 
 @compiled
 def _vector(rows: Floats, i: int, column: int) -> Vec3:
-    return Vec3(rows[i, column], rows[i, column + 1], rows[i, column + 2])
+    return Vec3(float(rows[i, column]), float(rows[i, column + 1]), float(rows[i, column + 2]))
+
+
+@compiled
+def _quaternion(aside: Floats, at: int) -> Quat:
+    return Quat(float(aside[at]), float(aside[at + 1]), float(aside[at + 2]), float(aside[at + 3]))
 
 
 @compiled
@@ -50,24 +53,24 @@ def _write(table: Floats, i: int, column: int, v: Vec3) -> None:
 @compiled
 def _sample(rows: Floats, i: int, dt: float) -> Sample:
     gyr, acc, mag = _vector(rows, i, _GYR), _vector(rows, i, _ACC), _vector(rows, i, _MAG)
-    return Sample(dt, gyr, acc, mag, rows[i, _ACC_AGE], rows[i, _MAG_AGE], dt, dt)
+    return Sample(dt, gyr, acc, mag, float(rows[i, _ACC_AGE]), float(rows[i, _MAG_AGE]), dt, dt)
 
 
 @entry
 def _begin(method: Any, rows: Floats, bias: Vec3) -> Any:
     """A method's memory, started from the first row."""
-    return _Memory(method, start(method, _sample(rows, 0, 0.0), bias))
+    return Memory(method, start(method, _sample(rows, 0, 0.0), bias))
 
 
 @entry
 def _begin_at(method: Any, attitude: Quat, declination: float, bias: Vec3) -> Any:
     """A method's memory, started at an attitude."""
-    return _Memory(method, start(method, resting_sample(attitude, declination), bias))
+    return Memory(method, start(method, resting_sample(attitude, declination), bias))
 
 
 @entry
 def _recall(method: Any, state: Any) -> Any:
-    return _Memory(method, state)
+    return Memory(method, state)
 
 
 @entry
@@ -79,11 +82,10 @@ def _state_of(memory: Any) -> Any:
 def advance(memory: Any, aside: Floats, rows: Floats, table: Floats, flags: NDArray[np.uint32]) -> None:
     """Step the method in *memory* over *rows* and write what it says into *table* and *flags*."""
     method, state = memory.method, memory.state
-    clock, first = aside[_CLOCK], aside[_FIRST] != 0.0
-    last = Quat(aside[_LAST], aside[_LAST + 1], aside[_LAST + 2], aside[_LAST + 3])
-    turn = Quat(aside[_TURN], aside[_TURN + 1], aside[_TURN + 2], aside[_TURN + 3])
+    clock, first = float(aside[_CLOCK]), aside[_FIRST] != 0.0  # float(): plain Python must not meet numpy's scalars
+    last, turn = _quaternion(aside, _LAST), _quaternion(aside, _TURN)
     for i in range(len(rows)):
-        time = rows[i, _TIME]
+        time = float(rows[i, _TIME])
         sample = _sample(rows, i, 0.0 if first else time - clock)
         if not first:
             state = step(method, state, sample)
@@ -155,8 +157,8 @@ class Stream:
             return self._advance(self._one_row(packet), np.array((packet[0],)))
         if np.ndim(packet[0]) == 0:
             return self.update(Packet(float(packet[0]), *packet[1:]))  # type: ignore[arg-type]
-        recording = Recording(*packet)  # type: ignore[arg-type]
-        return self._advance(self._rows(recording), recording.time)
+        many = samples(*packet)
+        return self._advance(self._rows(**many), many["time"])
 
     def _advance(self, rows: Floats, time: Floats) -> Attitude:
         n = len(time)
@@ -289,12 +291,10 @@ class Stream:
             self._see_mag(self._row)
         return self._row
 
-    def _rows(self, recording: Recording) -> Floats:
-        rows = np.empty((len(recording), _WIDTH))
-        rows[:, _TIME] = recording.time
-        rows[:, _GYR:_ACC], rows[:, _ACC:_MAG] = recording.gyr, recording.acc
-        rows[:, _MAG:_ACC_AGE] = recording.mag
-        rows[:, _ACC_AGE], rows[:, _MAG_AGE] = recording.acc_age, recording.mag_age
+    def _rows(self, time: Floats, gyr: Floats, acc: Floats, mag: Floats) -> Floats:
+        rows = np.zeros((len(time), _WIDTH))
+        rows[:, _TIME] = time
+        rows[:, _GYR:_ACC], rows[:, _ACC:_MAG], rows[:, _MAG:_ACC_AGE] = gyr, acc, mag
         if self._heading == "arbitrary":
             self._see_mag(rows)
         return rows
@@ -327,7 +327,9 @@ def estimate(
     n, blocks = len(recording), []
     for first in range(0, max(n, 1), _BLOCK):
         part = recording if n <= _BLOCK else recording[first : first + _BLOCK]
-        blocks.append(stream._advance(stream._rows(part), part.time))
+        rows = stream._rows(part.time, part.gyr, part.acc, part.mag)
+        rows[:, _ACC_AGE], rows[:, _MAG_AGE] = part.acc_age, part.mag_age
+        blocks.append(stream._advance(rows, part.time))
         if progress is not None:
             progress(min(first + _BLOCK, n))
     whole = blocks[0]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import cos, radians
 from typing import Annotated, Any, NamedTuple
 
 from poise.data.flags import (
@@ -17,8 +18,11 @@ from poise.data.flags import (
 from poise.data.packet import Output, Sample
 from poise.estimators.protocol import output, resting_sample, start, step, with_sensors
 from poise.math.compiled import compiled
-from poise.math.quaternions import IDENTITY, Quat, rotate, shortest_turn
-from poise.math.vectors import ABSENT, UP, Vec3, dot, present, unit, within
+from poise.math.quaternions import IDENTITY, Quat, rotate, shortest_turn, up_in_body
+from poise.math.vectors import ABSENT, UP, Vec3, dot, norm, present, unit, within
+
+
+_REST_RATE, _REST_FORCE, _GRAVITY = 0.1, 0.5, 9.80665  # rad/s with any bias, m/s², m/s²
 
 
 class State(NamedTuple):
@@ -30,6 +34,7 @@ class State(NamedTuple):
     gyr_absent: float  # s
     acc_absent: float
     mag_absent: float
+    astray: float  # s at rest with a tilt that gravity contradicts
     disorder: int  # rows in a row without a usable stamp
     flags: int
 
@@ -38,8 +43,8 @@ class Guard(NamedTuple):
     """Lets only finite samples of possible size reach *method*, in time that runs forward.
 
     A lost gyroscope sample is bridged with the last rate; after *longest_loss* without one, or a gap in the stamps that
-    long, the method starts anew from accelerometer and magnetometer and keeps the bias it had. Before the first usable
-    accelerometer sample the attitude is NaN and not valid.
+    long, the method starts anew from accelerometer and magnetometer and keeps the bias it had. So it does at rest, where
+    gravity says that the tilt is wrong. Before the first usable accelerometer sample the attitude is NaN and not valid.
     """
 
     method: Any
@@ -48,6 +53,8 @@ class Guard(NamedTuple):
     longest_loss: Annotated[float, "s", "without rotation for longer, the attitude is unknown"] = 1.0
     acc_loss: Annotated[float, "s", "without accelerometer for longer, samples are flagged"] = 0.5
     mag_loss: Annotated[float, "s", "without a magnetometer that was there before for longer, samples are flagged"] = 1.0
+    astray_angle: Annotated[float, "rad", "a tilt further from gravity, at rest, is wrong", (0.34, 3.2)] = radians(20.0)
+    astray_time: Annotated[float, "s", "how long it may stay so before the method starts anew"] = 2.0
     longest_disorder: Annotated[int, "rows", "without a usable stamp for more, the attitude is unknown"] = 20
     largest_gyr: Annotated[float, "rad/s", "a larger rate per axis is no measurement"] = 200.0
     largest_acc: Annotated[float, "m/s²", "a larger specific force per axis is no measurement"] = 5000.0
@@ -61,7 +68,7 @@ class Guard(NamedTuple):
         first = with_sensors(clean, gyr, clean.acc, clean.mag) if seen else with_sensors(placeholder, gyr, placeholder.acc, ABSENT)
         inner = start(self.method, first, bias)
         aligned = seen and present(clean.mag)
-        return State(inner, gyr, seen, aligned, False, 0.0, 0.0, 0.0, 0, 0 if seen else INITIALISING)
+        return State(inner, gyr, seen, aligned, False, 0.0, 0.0, 0.0, 0.0, 0, 0 if seen else INITIALISING)
 
     def step(self, state: State, sample: Sample) -> State:
         if not sample.dt > 1e-7:  # NaN too; a noise density over no time at all would overflow
@@ -88,20 +95,29 @@ class Guard(NamedTuple):
         sample = with_sensors(clean, gyr, clean.acc, clean.mag)
         if state.started and not lost and (state.aligned or not has_mag):
             inner = step(self.method, state.inner, sample)
-            return State(inner, gyr, True, state.aligned, False, gyr_absent, acc_absent, mag_absent, 0, flags)
+            astray = 0.0
+            if usable and _at_rest(sample):
+                up = up_in_body(output(self.method, inner, sample).attitude)
+                if dot(up, sample.acc) < cos(self.astray_angle) * norm(sample.acc):
+                    astray = state.astray + dt
+            lost = astray > self.astray_time
+            if not lost:
+                return State(
+                    inner, gyr, True, state.aligned, False, gyr_absent, acc_absent, mag_absent, astray, 0, flags
+                )  # fmt: skip
 
         # From here on the method does not step: it waits for samples to start from, or starts.
         before = output(self.method, state.inner, sample)
         if (not state.started or lost) and not usable:
             flags |= LOST if state.started else INITIALISING
             return State(
-                state.inner, gyr, state.started, state.aligned, lost, gyr_absent, acc_absent, mag_absent, 0, flags
+                state.inner, gyr, state.started, state.aligned, lost, gyr_absent, acc_absent, mag_absent, 0.0, 0, flags
             )  # fmt: skip
         if state.started:
             flags |= RESET
             sample = _restart(before.attitude, sample, lost, self.declination)
         inner = start(self.method, sample, before.bias)
-        return State(inner, gyr, True, has_mag, False, gyr_absent, acc_absent, mag_absent, 0, flags)
+        return State(inner, gyr, True, has_mag, False, gyr_absent, acc_absent, mag_absent, 0.0, 0, flags)
 
     def output(self, state: State, sample: Sample) -> Output:
         """What the method says; it sees the rate, not the other sensors, which it had in ``step``."""
@@ -121,7 +137,7 @@ def _held(guard: Guard, state: State) -> State:
         flags |= LOST
     return State(
         state.inner, state.gyr, state.started, state.aligned, state.lost,
-        state.gyr_absent, state.acc_absent, state.mag_absent, disorder, flags,
+        state.gyr_absent, state.acc_absent, state.mag_absent, state.astray, disorder, flags,
     )  # fmt: skip
 
 
@@ -135,6 +151,12 @@ def _restart(attitude: Quat, sample: Sample, lost: bool, declination: float) -> 
         attitude = shortest_turn(unit(rotate(attitude, sample.acc)), UP) * attitude
     rest = resting_sample(attitude, declination)
     return with_sensors(sample, sample.gyr, rest.acc, sample.mag if present(sample.mag) else rest.mag)
+
+
+@compiled
+def _at_rest(sample: Sample) -> bool:
+    """No turning, and the length of gravity: an acceleration could then tilt the specific force by 18° at most."""
+    return within(sample.gyr, _REST_RATE) and abs(norm(sample.acc) - _GRAVITY) < _REST_FORCE
 
 
 @compiled

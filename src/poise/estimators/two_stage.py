@@ -41,16 +41,16 @@ class State(NamedTuple):
 class TwoStage(NamedTuple):
     """Two-stage Kalman filter: the accelerometer corrects the tilt, then the magnetometer the heading."""
 
-    gyr_noise: Annotated[float, "rad/s/√Hz", "gyroscope noise density σ_g, with what scale and misalignment add"] = 0.001
-    acc_noise: Annotated[float, "m/s²/√Hz", "accelerometer noise density σ_a, with the acceleration of motion"] = 1.0
-    mag_noise: Annotated[float, "1/√Hz", "noise density σ_m of the magnetometer's unit vector"] = 0.1
-    motion_factor: Annotated[float, "", "κ: how the accelerometer's error grows with ||f| − g|/g"] = 10.0
+    gyr_noise: Annotated[float, "rad/s/√Hz", "gyroscope noise density σ_g, with what scale and misalignment add"] = 0.01
+    acc_noise: Annotated[float, "m/s²/√Hz", "accelerometer noise density σ_a, with the acceleration of motion"] = 1.2
+    mag_noise: Annotated[float, "1/√Hz", "noise density σ_m of the magnetometer's unit vector"] = 0.65
+    motion_factor: Annotated[float, "1", "κ: how the accelerometer's error grows with ||f| − g|/g"] = 0.05
     gravity: Annotated[float, "m/s²", "length of gravity g"] = 9.80665
     declination: Annotated[float, "rad", "true heading = magnetic heading + D, east positive", (-3.2, 3.2)] = 0.0
     stage1_heading: Annotated[
-        Literal["predicted", "measured"], "", "whose heading the accelerometer's stage is linearised at"
+        Literal["predicted", "measured"], "choice", "whose heading the accelerometer's stage is linearised at"
     ] = "predicted"
-    decouple: Annotated[bool, "", "stage 1 cannot turn the heading, stage 2 cannot tilt the horizon"] = True
+    decouple: Annotated[bool, "yes/no", "stage 1 cannot turn the heading, stage 2 cannot tilt the horizon"] = True
 
     @classmethod
     def as_printed(cls) -> Self:

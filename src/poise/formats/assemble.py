@@ -105,7 +105,7 @@ def _time(where: str, table: Table, options: Options, rows: int) -> tuple[Floats
     verdict = evidence.of_time(stamps)
     if not stated and not verdict.unit and len(stamps) > 1:
         raise FormatError(
-            f"{where}: unit of time not named, and {verdict.sentence}; say it: --units time=s (or ms, us, ns)"
+            f"{where}: unit of time not named, and {verdict.sentence}; say it: --units time=s (or ms, us, ns, 100us)"
         )
     unit = stated or verdict.unit or "s"
     if stated and not table.own and np.isfinite(verdict.size):

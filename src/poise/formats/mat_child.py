@@ -4,6 +4,7 @@ Not imported by the package: a damaged file can crash the library that reads it,
 """
 
 import sys
+from contextlib import suppress
 from typing import Any
 
 LONGEST_NAME = 200
@@ -21,7 +22,10 @@ def bound(memory: int, seconds: int) -> None:
         (resource.RLIMIT_FSIZE, memory),
         (resource.RLIMIT_CORE, 0),
     ):
-        resource.setrlimit(limit, (value, value))
+        hard = resource.getrlimit(limit)[1]
+        value = value if hard == resource.RLIM_INFINITY else min(value, hard)
+        with suppress(ValueError, OSError):  # a system without this limit
+            resource.setrlimit(limit, (value, value))
 
 
 def numbers(value: Any, name: str, found: dict[str, Any], depth: int = 0) -> None:

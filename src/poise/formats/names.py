@@ -214,7 +214,8 @@ def _complete(where: str, columns: dict[str, Column], names: Sequence[str]) -> d
             raise FormatError(
                 f"{where}: no column for {', '.join(missing)} among {listed(names)}; say what they are: {EXAMPLE}"
             )
-        if len({columns[key].unit for key in keys if columns[key].unit}) > 1:
+        stated = [columns[key].unit for key in keys if columns[key].unit]
+        if len({units.named(group, unit) or unit for unit in stated}) > 1:
             raise FormatError(f"{where}: the columns of {group} name different units; give them one")
         used |= {key: columns[key] for key in keys}
     return used

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import math
+import re
+import struct
 import zipfile
 import zlib
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import IO, Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +20,12 @@ from poise.formats.limits import Limits, Options, check_expansion
 from poise.formats.table import KIND, Table
 
 FACTS = "poise"
-_DAMAGE = (zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, RuntimeError, SyntaxError)
+_DAMAGE = (zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, TypeError, RuntimeError, struct.error)
+_LONGEST = 4096  # bytes of an array's header
+_HEADER = re.compile(
+    rb"\{ *'descr': *'([<>|=]?[fiubcSU]\d{1,9})', *'fortran_order': *(?:True|False), *"
+    rb"'shape': *\(([\d, ]{0,99})\) *,? *\} *\n?"
+)
 _METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 
 
@@ -61,18 +68,26 @@ def _member(where: str, archive: zipfile.ZipFile, info: zipfile.ZipInfo) -> NDAr
     if info.compress_type not in _METHODS:
         raise FormatError(f"{label}: packed in a way that numpy does not use; save it again with numpy.savez")
     with archive.open(info) as stream:
-        version = np.lib.format.read_magic(stream)
-        headers = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
-        if version not in headers:
-            raise FormatError(f"{label}: npy version {version} is not known; save it again with numpy.savez")
-        shape, _, dtype = headers[version](stream)
-        if dtype.hasobject or dtype.kind not in "fiubUcS":
-            raise FormatError(f"{label}: holds {dtype} (objects need unpickling, which is never done); save numbers")
-        start = stream.tell()
-    if math.prod(shape) * dtype.itemsize + start != info.file_size or any(side < 0 for side in shape):
-        raise FormatError(f"{label}: its header claims shape {shape} of {dtype}, which is not what follows; damaged")
+        size = _claimed_size(label, stream)
+    if size != info.file_size:
+        raise FormatError(f"{label}: its header claims {size} bytes, it has {info.file_size}; the file is damaged")
     with archive.open(info) as stream:
         return np.asarray(np.lib.format.read_array(stream, allow_pickle=False))
+
+
+def _claimed_size(label: str, stream: IO[bytes]) -> int:
+    """The bytes that an array's header claims for header and data; read strictly, for numpy evaluates it."""
+    start = stream.read(12)
+    width, code = {b"\x01": (2, "<H"), b"\x02": (4, "<I")}.get(start[6:7], (0, ""))
+    if start[:6] != b"\x93NUMPY" or not width or len(start) < 12:
+        raise FormatError(f"{label}: not an array of numpy's; save it again with numpy.savez")
+    (length,) = struct.unpack(code, start[8 : 8 + width])
+    header = start[8 + width :] + stream.read(max(0, min(length, _LONGEST) - (4 - width)))
+    found = _HEADER.fullmatch(header)
+    if not found:
+        raise FormatError(f"{label}: holds no plain numbers, or its header is damaged; nothing is ever unpickled")
+    count = math.prod(int(side) for side in found[2].split(b",") if side.strip())
+    return int(8 + width + length + count * np.dtype(found[1].decode()).itemsize)
 
 
 def _facts(array: NDArray[Any] | None) -> dict[str, str]:

@@ -36,7 +36,7 @@ def opened(where: str, path: Path) -> Any:
     from pyarrow import parquet
 
     try:
-        return parquet.ParquetFile(path)
+        return parquet.ParquetFile(path, page_checksum_verification=True)
     except (pyarrow.ArrowException, OSError, ValueError) as problem:
         raise FormatError(f"{where}: damaged Parquet file ({_short(problem)}); copy or export it again") from None
 

@@ -85,12 +85,13 @@ def _is_binary(head: bytes) -> bool:
 
 
 def _zip(where: str, path: Path) -> str:
+    import struct
     import zipfile
 
     try:
         with zipfile.ZipFile(path) as archive:
             inside = archive.namelist()
-    except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError, EOFError) as problem:
+    except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError, EOFError, struct.error) as problem:
         raise FormatError(f"{where}: damaged zip or npz file ({problem}); copy it again") from None
     if inside and all(name.endswith(".npy") for name in inside):
         return "npz"

@@ -83,7 +83,7 @@ def _lines(where: str, file: BinaryIO, dialect: Dialect, limits: Limits) -> Iter
             line, skip = line + count, max(0, skip - count)
     if rest.endswith(b"\r"):
         yield line, rest[:-1] + b"\n", True
-    elif rest.strip():
+    elif rest.strip() and not _COMMENT.match(rest):
         yield line, rest, False
 
 
@@ -93,7 +93,7 @@ def _without(block: bytes, line: int, skip: int) -> Iterator[tuple[int, bytes]]:
         start = block.index(b"\n", start) + 1
         line += 1
     if block[start:]:
-        yield line, block[start:] if start else block
+        yield line, block[start:]
 
 
 def _transcode(where: str, line: int, decoder: Any, raw: bytes) -> bytes:

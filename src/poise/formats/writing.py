@@ -98,10 +98,11 @@ def _parquet(thing: Attitude | Recording, file: BinaryIO) -> None:
 
     writer = None
     facts = _facts(thing)
+    how: dict[str, Any] = {"compression": "zstd", "use_dictionary": False, "write_page_checksum": True}
     names = list(_columns(thing))
     for table in _tables(thing):
         table = table.select(names).replace_schema_metadata(facts)
-        writer = writer or parquet.ParquetWriter(file, table.schema, compression="zstd", use_dictionary=False)
+        writer = writer or parquet.ParquetWriter(file, table.schema, **how)
         writer.write_table(table)
     if writer is not None:
         writer.close()

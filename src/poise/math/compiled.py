@@ -272,19 +272,24 @@ if not PLAIN_PYTHON:
 # Memory: state that stays on the compiled side between calls (boxing a State costs ~2 us per nested tuple)
 
 
-def memory_class(name: str, fields: list[str]) -> Any:
-    """A mutable record with *fields*, a numba structref or, without compilation, a plain object."""
-    if PLAIN_PYTHON:
+if PLAIN_PYTHON:
 
-        def fill(self: Any, *values: Any) -> None:
-            self.__dict__.update(zip(fields, values, strict=True))
+    class Memory:
+        """A running method: its parameters and its state."""
 
-        return type(name, (), {"__init__": fill})
+        def __init__(self, method: Any, state: Any) -> None:
+            self.method, self.state = method, state
 
-    def make(cls: Any, *values: Any) -> Any:
-        return structref.StructRefProxy.__new__(cls, *values)
+else:
 
-    record = structref.register(type(f"{name}Type", (types.StructRef,), {}))
-    proxy = type(name, (structref.StructRefProxy,), {"__new__": make})
-    structref.define_proxy(proxy, record, fields)
-    return proxy
+    @structref.register
+    class MemoryType(types.StructRef):  # type: ignore[misc]  # by name in the module: disk caches refer to it
+        pass
+
+    class Memory(structref.StructRefProxy):  # type: ignore[misc, no-redef]
+        """A running method: its parameters and its state."""
+
+        def __new__(cls, method: Any, state: Any) -> Any:
+            return structref.StructRefProxy.__new__(cls, method, state)
+
+    structref.define_proxy(Memory, MemoryType, ["method", "state"])
