@@ -176,9 +176,9 @@ def main(arguments: list[str] | None = None) -> int:
         print(report(scores, options.markdown))
     if not options.write:
         return check(own)
-    _store("accuracy.json", document(own))
+    store("accuracy.json", document(own))
     if foreign:
-        _store("peers.json", document(foreign, facts))
+        store("peers.json", document(foreign, facts))
     return 0
 
 
@@ -220,7 +220,8 @@ def _rounded(value: Any) -> Any:
     return round(value, 6) if isinstance(value, float) else value
 
 
-def _store(name: str, content: dict[str, Any]) -> None:
+def store(name: str, content: dict[str, Any]) -> None:
+    """Write one file of results."""
     RESULTS.mkdir(exist_ok=True)
     path = RESULTS / name
     path.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")

@@ -59,20 +59,28 @@ def imufusion_ahrs(recording: Recording) -> Floats:
 
 
 def ahrs_madgwick(recording: Recording) -> Floats:
-    """Madgwick's filter, whose world is x north, y west, z up."""
+    """Madgwick's filter, whose world is x north, y west, z up; its own start takes half turns for identity."""
     from ahrs.filters import Madgwick
 
-    madgwick = Madgwick(gyr=recording.gyr, acc=recording.acc, mag=recording.mag, Dt=period(recording))
-    return arrays.multiply(_QUARTER_TURN, np.asarray(madgwick.Q))
+    # The gain has to be said: without arrays in the constructor it is that of a filter without magnetometer.
+    madgwick = Madgwick(Dt=period(recording), gain=0.041)
+    quat = np.empty((len(recording), 4))
+    quat[0] = arrays.multiply(arrays.conjugate(_QUARTER_TURN), first_attitude(recording))
+    for i in range(1, len(recording)):
+        quat[i] = madgwick.updateMARG(quat[i - 1], recording.gyr[i], recording.acc[i], recording.mag[i])
+    return arrays.multiply(_QUARTER_TURN, quat)
 
 
 def ahrs_mahony(recording: Recording) -> Floats:
-    """Mahony's filter, whose world is ENU; its own start is the inverse of that, so it is given one."""
+    """Mahony's filter, whose world is ENU."""
     from ahrs.filters import Mahony
 
-    first = attitude_of(Vec3(*recording.acc[0]), Vec3(*recording.mag[0]), 0.0)
-    mahony = Mahony(gyr=recording.gyr, acc=recording.acc, mag=recording.mag, Dt=period(recording), q0=np.array(first))
-    return np.asarray(mahony.Q)
+    return np.asarray(Mahony(gyr=recording.gyr, acc=recording.acc, mag=recording.mag, Dt=period(recording)).Q)
+
+
+def first_attitude(recording: Recording) -> Floats:
+    """(4,) w x y z, sensor to ENU, of the first accelerometer and magnetometer sample."""
+    return np.array(attitude_of(Vec3(*recording.acc[0]), Vec3(*recording.mag[0]), 0.0))
 
 
 def imufusion_filter(recording: Recording) -> tuple[Any, Any]:
@@ -117,8 +125,8 @@ PEERS: dict[str, Peer] = {
     "vqf": Peer("vqf", "defaults, 9 axes, causal", vqf_causal),
     "vqf-offline": Peer("vqf", "defaults, 9 axes, not causal", vqf_offline),
     "imufusion": Peer("imufusion", "gain 0.5, rejections 10°, 5 s, with its bias algorithm", imufusion_ahrs),
-    "ahrs-madgwick": Peer("ahrs", "gain 0.041", ahrs_madgwick),
-    "ahrs-mahony": Peer("ahrs", "k_P 1, k_I 0.3, started from the first sample", ahrs_mahony),
+    "ahrs-madgwick": Peer("ahrs", "gain 0.041, started from the first sample", ahrs_madgwick),
+    "ahrs-mahony": Peer("ahrs", "k_P 1, k_I 0.3", ahrs_mahony),
 }
 
 

@@ -2,25 +2,24 @@
 
     python benchmarks/speed.py [--rounds N] [--write]
 
-Contenders take turns (A B A B …) and are warm before the first round, so that compiling is not counted and the machine's
-moods meet all of them. Ratios are what to compare; the times belong to the machine they were measured on.
+Contenders take turns (A B A B …) and are warm before the first round: compiling is not counted, and the machine's moods
+meet all of them. Ratios are what to compare; the times belong to the machine they were measured on.
 """
 
 from __future__ import annotations
 
 import argparse
 import gc
-import json
 import sys
 from collections.abc import Callable, Sequence
-from itertools import batched, cycle
+from itertools import cycle
 from time import perf_counter_ns
 from typing import Any, NamedTuple
 
 import numpy as np
 
 import accuracy
-from peers import imufusion_filter, imufusion_units, installed, period
+from peers import imufusion_ahrs, imufusion_filter, imufusion_units, installed, period
 from poise import METHODS, Attitude, Packet, Recording, Stream, TwoStage, estimate
 from poise.math import arrays
 from poise.simulation import Sensor, forearm, measure
@@ -29,50 +28,77 @@ from tables import Cell, heading, table
 
 ROUNDS = 9  # the least that is worth a median
 SAMPLES, RATE = 57_000, 286.0
-LIVE = 2_000  # samples a round, one a call
+LIVE = 2_000  # samples a round where they come one a call
 TARGET = (0.9238795325112867, 0.0, 0.0, 0.3826834323650898)  # w x y z: where the controller turns to
 STIFFNESS, DAMPING = 4.0, 1.0  # N·m, N·m·s/rad
-COLUMNS = ("min", "median", "min / {0}", "median / {0}")
+
+FORMS: dict[str, Any] = {
+    "two stages": TwoStage(decouple=False),
+    "stacked": Stacked(TwoStage(decouple=False)),
+    "two stages, decoupled (default)": TwoStage(),
+}
 
 Run = Callable[[], object]
+Loop = Callable[[list[Packet]], None]
 
 
 class Timing(NamedTuple):
-    """A contender's times and their ratios to the reference's."""
+    """A contender's times a sample and their ratios to the first contender's."""
 
     least: float
+    """ns"""
     median: float
-    least_ratio: float
+    """ns"""
+    ratio_of_least: float
     median_ratio: float
-    """median over the rounds of the ratio within a round"""
+    """over the rounds, of the ratio within a round"""
+
+
+class Group(NamedTuple):
+    """Contenders that are compared with one another."""
+
+    title: str
+    unit: str
+    digits: int
+    samples: int
+    """samples a turn"""
+    runs: dict[str, Run]
 
 
 def recording() -> Recording:
-    """200 s of a made forearm, as long and as fast as a BROAD trial, by an ordinary sensor without absent samples."""
+    """200 s of a made forearm, as long and as fast as a BROAD trial; an ordinary sensor, no sample absent."""
     return measure(forearm(SAMPLES / RATE, RATE), Sensor(mag_delay=0.0, jitter=0.0))
 
 
-def interleaved(contenders: dict[str, Run], samples: int, rounds: int, reference: str) -> dict[str, Timing]:
-    """ns per sample of contenders that take turns, after a first turn that is not counted."""
-    for run in contenders.values():
+def interleaved(group: Group, rounds: int) -> dict[str, Timing]:
+    """The times of contenders that take turns, after a first turn that is not counted."""
+    times: dict[str, list[float]] = {name: [] for name in group.runs}
+    for run in group.runs.values():
         run()
-    times: dict[str, list[float]] = {name: [] for name in contenders}
     gc.collect()
     gc.disable()
     try:
         for _ in range(rounds):
-            for name, run in contenders.items():
+            for name, run in group.runs.items():
                 began = perf_counter_ns()
                 run()
-                times[name].append((perf_counter_ns() - began) / samples)
+                times[name].append((perf_counter_ns() - began) / group.samples)
     finally:
         gc.enable()
-    return {name: _timing(own, times[reference]) for name, own in times.items()}
+    reference = next(iter(times.values()))
+    return {name: _timing(own, reference) for name, own in times.items()}
 
 
-def _timing(own: Sequence[float], reference: Sequence[float]) -> Timing:
-    ratios = np.divide(own, reference)
-    return Timing(min(own), float(np.median(own)), min(own) / min(reference), float(np.median(ratios)))
+def groups(made: Recording) -> dict[str, Group]:
+    """Everything that is timed, by the name it is stored under."""
+    n = len(made)
+    return {
+        "batch": Group("A whole recording", "ns", 0, n, batch(made)),
+        "live": Group("Live, one sample a call", "µs", 2, LIVE, live(made)),
+        "stages": Group("Two stages beside one stacked update", "ns", 0, n, _estimates(made)),
+        "stages_bare": Group("The same without guard and rest bias", "ns", 0, n, _estimates(made, False)),
+        "control": Group("A control cycle: one sample in, a torque out", "µs", 2, LIVE, control(made)),
+    }
 
 
 def batch(made: Recording) -> dict[str, Run]:
@@ -80,42 +106,28 @@ def batch(made: Recording) -> dict[str, Run]:
     from vqf import VQF
 
     seconds = period(made)
-    runs: dict[str, Run] = {"vqf updateBatch": lambda: VQF(seconds).updateBatch(made.gyr, made.acc, made.mag)}
-    for name, method in METHODS.items():
-        runs[name] = _estimating(method(), made)
-    runs["imufusion (a Python loop: it has no batch)"] = lambda: _imufusion_loop(made)
-    return runs
+    return {
+        "vqf updateBatch": lambda: VQF(seconds).updateBatch(made.gyr, made.acc, made.mag),
+        **{name: _estimate(method(), made) for name, method in METHODS.items()},
+        "imufusion, a Python loop (it has no batch)": lambda: imufusion_ahrs(made),
+    }
 
 
 def live(made: Recording) -> dict[str, Run]:
     """One sample a call, arrays of three in, an attitude out."""
-    from vqf import VQF
-
     packets = _packets(made)
-    runs: dict[str, Run] = {"vqf update + getQuat9D": _vqf_feed(VQF(period(made)), packets)}
-    for name, method in METHODS.items():
-        runs[f"{name} Stream.update"] = _feed(Stream(method()).update, packets)
-    runs["imufusion update + get_quaternion"] = _imufusion_feed(made)
-    return runs
-
-
-def stages(made: Recording) -> dict[str, Run]:
-    """Two stages beside one stacked update, both not decoupled, as `estimate` runs them and without its wrappers."""
-    two, stacked = TwoStage(decouple=False), Stacked(TwoStage(decouple=False))
+    foreign = list(map(Packet, made.time.tolist(), *imufusion_units(made)))
     return {
-        "two stages": _estimating(two, made),
-        "stacked": _estimating(stacked, made),
-        "two stages, decoupled (default)": _estimating(TwoStage(), made),
-        "two stages, bare": lambda: estimate(two, made, guard=False, rest_bias=False),
-        "stacked, bare": lambda: estimate(stacked, made, guard=False, rest_bias=False),
+        "vqf update + getQuat9D": _fed(_vqf_loop(period(made)), packets),
+        **{f"{name} Stream.update": _fed(_stream_loop(method()), packets) for name, method in METHODS.items()},
+        "imufusion update + get_quaternion": _fed(_imufusion_loop(made), foreign),
     }
 
 
 def control(made: Recording) -> dict[str, Run]:
-    """A control cycle: one sample into a stream, a torque out."""
+    """One sample into a stream, a torque out."""
     packets = _packets(made)
-    methods = {"two stages": TwoStage(decouple=False), "stacked": Stacked(TwoStage(decouple=False))}
-    return {name: _feed(_cycle(Stream(method)), packets) for name, method in methods.items()}
+    return {name: _fed(_control_loop(method), packets) for name, method in FORMS.items()}
 
 
 def torque(attitude: Attitude) -> tuple[float, float, float]:
@@ -130,49 +142,136 @@ def torque(attitude: Attitude) -> tuple[float, float, float]:
     return k * e1 - DAMPING * p, k * e2 - DAMPING * q, k * e3 - DAMPING * r
 
 
-def _cycle(stream: Stream) -> Callable[[Packet], object]:
-    return lambda packet: torque(stream.update(packet))
+def form_errors() -> dict[str, float]:
+    """The mean total RMSE of the filter's forms on the BROAD trials, degrees; empty where there are none."""
+    runs = {name: accuracy.run_method(method) for name, method in FORMS.items()}
+    scores = accuracy.measure(accuracy.trial_files(), runs)
+    return {name: accuracy.means(trials)["all"]["total"] for name, trials in scores.items() if trials}
 
 
-def _estimating(method: Any, made: Recording) -> Run:
-    return lambda: estimate(method, made)
+def largest_difference_deg(made: Recording) -> float:
+    """The largest angle between the attitudes of two stages and of the stacked update, degrees."""
+    p, q = (estimate(FORMS[name], made).quat for name in ("two stages", "stacked"))
+    return float(np.degrees(arrays.angle(arrays.multiply(p, arrays.conjugate(q))).max()))
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """The command."""
+    options = _options(arguments)
+    absent = [package for package in ("vqf", "imufusion") if not installed(package)]
+    if absent:
+        print(f"compares with {' and '.join(absent)}, not installed: pip install poise[peers]", file=sys.stderr)
+        return 1
+    made = recording()
+    results: dict[str, Any] = {"samples": SAMPLES, "rate_hz": RATE, "rounds": options.rounds, "versions": _versions()}
+    for key, group in groups(made).items():
+        timings = interleaved(group, options.rounds)
+        _show(group, timings)
+        results[key] = {name: _ratios(timing) for name, timing in timings.items()}
+    errors = form_errors()
+    print(heading("Mean total RMSE on the BROAD trials, degrees"))
+    print(table(["", "total"], list(errors.items())) if errors else "no recordings; POISE_DATA says where they are")
+    print(f"On the made recording two stages and stacked differ by at most {largest_difference_deg(made):.0e} degrees.")
+    results["stages_total_rmse_deg"] = {name: round(error, 6) for name, error in errors.items()}
+    if options.write:
+        accuracy.store("speed.json", results)
+    return 0
+
+
+def _options(arguments: list[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", 1)[0])
+    parser.add_argument("--rounds", type=int, default=ROUNDS, help=f"turns of every contender, {ROUNDS} or more")
+    parser.add_argument("--write", action="store_true", help="store the ratios")
+    options = parser.parse_args(arguments)
+    if options.rounds < ROUNDS:
+        parser.error(f"--rounds {options.rounds}: fewer than {ROUNDS} say little")
+    return options
+
+
+def _versions() -> dict[str, str | None]:
+    return {package: installed(package) for package in ("poise", "numba", "vqf", "imufusion")}
+
+
+def _timing(own: Sequence[float], reference: Sequence[float]) -> Timing:
+    within = float(np.median(np.divide(own, reference)))
+    return Timing(min(own), float(np.median(own)), min(own) / min(reference), within)
+
+
+def _ratios(timing: Timing) -> dict[str, float]:
+    return {name: round(getattr(timing, name), 3) for name in ("ratio_of_least", "median_ratio")}
+
+
+def _show(group: Group, timings: dict[str, Timing]) -> None:
+    scale = 1e-3 if group.unit == "µs" else 1.0
+    rows: list[list[Cell]] = [
+        [name, *(f"{time * scale:.{group.digits}f}" for time in timing[:2]), *timing[2:]]
+        for name, timing in timings.items()
+    ]
+    print(heading(f"{group.title}: {group.unit} a sample, ratios to {next(iter(timings))}"))
+    print(table(["", "min", "median", "ratio of mins", "median ratio"], rows, digits=2))
 
 
 def _packets(made: Recording) -> list[Packet]:
     return list(map(Packet, made.time.tolist(), made.gyr, made.acc, made.mag))
 
 
-def _feed(update: Callable[[Packet], object], packets: list[Packet]) -> Run:
-    """The next LIVE packets, one a call."""
-    rounds = iter(batched(packets, LIVE))
-
-    def run() -> None:
-        for packet in next(rounds):
-            update(packet)
-
-    return run
+def _estimates(made: Recording, wrapped: bool = True) -> dict[str, Run]:
+    return {name: _estimate(method, made, wrapped) for name, method in FORMS.items()}
 
 
-def _vqf_feed(vqf: Any, packets: list[Packet]) -> Run:
-    def update(packet: Packet) -> object:
-        vqf.update(packet.gyr, packet.acc, packet.mag)
-        return vqf.getQuat9D()
-
-    return _feed(update, packets)
+def _estimate(method: Any, made: Recording, wrapped: bool = True) -> Run:
+    return lambda: estimate(method, made, guard=wrapped, rest_bias=wrapped)
 
 
-def _imufusion_feed(made: Recording) -> Run:
+def _fed(loop: Loop, packets: list[Packet]) -> Run:
+    """*loop* over the next LIVE packets."""
+    chunks = cycle(packets[first : first + LIVE] for first in range(0, len(packets) - LIVE + 1, LIVE))
+    return lambda: loop(next(chunks))
+
+
+def _stream_loop(method: Any) -> Loop:
+    stream = Stream(method)
+
+    def loop(packets: list[Packet]) -> None:
+        for packet in packets:
+            stream.update(packet)
+
+    return loop
+
+
+def _control_loop(method: Any) -> Loop:
+    stream = Stream(method)
+
+    def loop(packets: list[Packet]) -> None:
+        for packet in packets:
+            torque(stream.update(packet))
+
+    return loop
+
+
+def _vqf_loop(seconds: float) -> Loop:
+    from vqf import VQF
+
+    vqf = VQF(seconds)
+
+    def loop(packets: list[Packet]) -> None:
+        for _, gyr, acc, mag in packets:
+            vqf.update(gyr, acc, mag)
+            vqf.getQuat9D()
+
+    return loop
+
+
+def _imufusion_loop(made: Recording) -> Loop:
     _, ahrs = imufusion_filter(made)
-    gyr, acc, mag = imufusion_units(made)
 
-    def update(packet: Packet) -> object:
-        ahrs.update(packet.gyr, packet.acc, packet.mag)
-        return ahrs.get_quaternion()
+    def loop(packets: list[Packet]) -> None:
+        for _, gyr, acc, mag in packets:
+            ahrs.update(gyr, acc, mag)
+            ahrs.get_quaternion()
 
-    return _feed(update, list(map(Packet, made.time.tolist(), gyr, acc, mag)))
+    return loop
 
 
-def _imufusion_loop(made: Recording) -> None:
-    from peers import imufusion_ahrs
-
-    imufusion_ahrs(made)
+if __name__ == "__main__":
+    sys.exit(main())

@@ -15,6 +15,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 import poise
 from helpers import angle_between, random_quats, wxyz
@@ -25,7 +26,6 @@ from poise.estimators import METHODS
 from poise.estimators.parameters import parameters
 from poise.math import arrays
 from poise.simulation import PERFECT, Sensor, at_rest, forearm, measure, turned_about_up
-from scipy.spatial.transform import Rotation
 
 every_method = pytest.mark.parametrize("method", [cls() for cls in METHODS.values()], ids=list(METHODS))
 RATE = 50.0
@@ -111,7 +111,9 @@ def test_a_saved_stream_belongs_to_its_method_and_parameters(method: Any) -> Non
     stream = poise.Stream(method)
     stream.update(packet(made(), 0, 10))
     saved = stream.save()
-    other = poise.Stream(method._replace(declination=0.1) if "declination" in method._fields else method, rest_bias=False)
+    other = poise.Stream(
+        method._replace(declination=0.1) if "declination" in method._fields else method, rest_bias=False
+    )
     for bytes_ in (saved[: len(saved) // 2], b"", b"[]", b"\xff\x00", b'{"poise": "stream"}'):
         with pytest.raises(StateError, match="saved stream"):
             poise.Stream(method).restore(bytes_)
@@ -254,7 +256,7 @@ def test_declination_turns_the_answer(method: Any) -> None:
 def test_rotating_the_sensors_axes_rotates_the_answer(method: Any, axes: str) -> None:
     plain, turned = made(), made().remap(axes)
     a, b = poise.estimate(method, plain), poise.estimate(method, turned)
-    turn = np.array([[("-" in word and -1 or 1) * (word[-1] == axis) for axis in "xyz"] for word in axes.split()])
+    turn = np.array([[(("-" in word and -1) or 1) * (word[-1] == axis) for axis in "xyz"] for word in axes.split()])
     expected = arrays.multiply(a.quat, arrays.conjugate(wxyz(Rotation.from_matrix(turn))))
     assert angle_between(b.quat, expected).max() < 1e-6
     np.testing.assert_allclose(b.bias, a.bias @ turn.T, atol=1e-9)

@@ -1,7 +1,7 @@
 """poise: attitude from inertial samples, with its uncertainty and its reasons.
 
-    recording = poise.read("walk.csv")
-    attitude = poise.estimate(poise.TwoStage(), recording)
+recording = poise.read("walk.csv")
+attitude = poise.estimate(poise.TwoStage(), recording)
 """
 
 from __future__ import annotations
@@ -9,7 +9,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-__version__ = "0.1.0"
+from poise.version import __version__ as __version__
+
 
 # Names are imported when they are first used: `poise --help` must not wait for a compiler.
 _HOME = {

@@ -108,6 +108,6 @@ def evaluate(attitude: Attitude, recording: Recording | Attitude) -> Errors:
         total=2 * np.arctan2(np.sqrt(x**2 + y**2 + z**2), w),
         heading=2 * np.arctan2(z, w),
         inclination=2 * np.arctan2(np.hypot(x, y), np.hypot(w, z)),
-        counted=should & known,
+        counted=np.asarray(should & known),
         missing=int(np.sum(should & ~known)),
     )

@@ -47,6 +47,6 @@ def run(arguments: list[str]) -> int:
 
 
 def _version() -> str:
-    from poise import __version__
+    from poise.version import __version__
 
     return __version__

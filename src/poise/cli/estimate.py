@@ -140,7 +140,9 @@ def _report(results: list[dict[str, Any]], method: str, json: bool) -> None:
             show.note(f"{Path(result['file']).name}: picture in {result['plot']}")
 
 
-def _targets(files: list[Path], target: Path | None, ending: str, known: tuple[str, ...], option: str) -> dict[Path, Path]:
+def _targets(
+    files: list[Path], target: Path | None, ending: str, known: tuple[str, ...], option: str
+) -> dict[Path, Path]:
     """Where each file's result goes; never on top of an input or of one another."""
     if target is None:
         places = {file: Path(file.stem + ending) for file in files}

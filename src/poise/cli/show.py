@@ -31,7 +31,9 @@ def as_json(value: Any) -> None:
     print(json.dumps(_plain(value), indent=2, ensure_ascii=False))
 
 
-def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[Any]], footer: Sequence[Any] | None = None) -> None:
+def table(
+    title: str, columns: Sequence[str], rows: Sequence[Sequence[Any]], footer: Sequence[Any] | None = None
+) -> None:
     """A table on stdout; numbers stand right, and nothing is cut off when stdout is no terminal."""
     from rich.console import Console
     from rich.table import Table
@@ -66,7 +68,9 @@ def waiting(files: Sequence[Path]) -> Iterator[Callable[[Path, str, float], None
     timer.daemon = True
     timer.start()
     try:
-        yield lambda file, doing, share: bar.update(task, description=f"{file.name}: {doing}", completed=place[file] + share)
+        yield lambda file, doing, share: bar.update(
+            task, description=f"{file.name}: {doing}", completed=place[file] + share
+        )
     finally:
         timer.cancel()
         timer.join()

@@ -178,15 +178,15 @@ class Attitude:
         """
         import warnings
 
-        x, y, z = sequence if len(sequence) == 3 else "   "
+        x, y, z = list(sequence) if len(sequence) == 3 else [""] * 3
         if not (set(sequence) <= set("XYZ") or set(sequence) <= set("xyz")) or x == y or y == z:
             raise RecordingError(f'sequence {sequence!r} not understood; expected three axes such as "ZXY" or "ZYX"')
         angles = np.full((len(self), 3), np.nan)
-        known = np.isfinite(self.quat).all(axis=1)
+        known = np.asarray(np.isfinite(self.quat).all(axis=1))
         if known.any():
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", UserWarning)  # gimbal lock: said above
-                angles[known] = self[known].as_rotation().as_euler(sequence, degrees=degrees)
+                angles[known] = self[known].as_rotation().as_euler(sequence, degrees=degrees)  # type: ignore[call-overload]
         return angles
 
     def heading(self, forward: str = "y") -> Floats:
@@ -225,8 +225,8 @@ class Attitude:
         quat = self.to("enu").quat
         gravity = np.array([0.0, 0.0, recording.gravity])
         if frame == "earth":
-            return arrays.rotate(quat, recording.acc) - gravity
-        return recording.acc - arrays.rotate(arrays.conjugate(quat), gravity)
+            return np.asarray(arrays.rotate(quat, recording.acc) - gravity)
+        return np.asarray(recording.acc - arrays.rotate(arrays.conjugate(quat), gravity))
 
     def relative_to(self, other: Attitude) -> Attitude:
         """This body's orientation seen from the body of *other* (a joint's angle), at this attitude's times.
@@ -317,7 +317,7 @@ class Attitude:
 
     def metadata(self) -> dict[str, str]:
         """What a file must say beside the columns: frame, order, units, method, parameters, version, source."""
-        from poise import __version__
+        from poise.version import __version__
 
         return {
             "poise.kind": "attitude",

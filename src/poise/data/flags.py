@@ -60,4 +60,4 @@ CORRECTION_FORCED = int(Flag.CORRECTION_FORCED)
 
 def valid(flags: NDArray[np.uint32]) -> NDArray[np.bool_]:
     """Whether the attitude may be acted on, (n,) bool: none of the bits of :data:`INVALID` is set."""
-    return (flags & np.uint32(INVALID)) == 0
+    return np.asarray((flags & np.uint32(INVALID)) == 0)

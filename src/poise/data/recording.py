@@ -74,7 +74,9 @@ class Recording:
         _check_unit_of_time(values["time"])
 
     @classmethod
-    def at_rate(cls, rate: float, gyr: ArrayLike, acc: ArrayLike, mag: ArrayLike | None = None, **facts: Any) -> Recording:
+    def at_rate(
+        cls, rate: float, gyr: ArrayLike, acc: ArrayLike, mag: ArrayLike | None = None, **facts: Any
+    ) -> Recording:
         """A recording of evenly spaced samples, *rate* per second, starting at 0 s."""
         if not isinstance(rate, (int, float, np.number)) or not 1.0 / _SLOWEST <= rate < np.inf:
             raise RecordingError(f"rate: expected samples per second, at least {1.0 / _SLOWEST:g}, found {rate!r}")
@@ -186,7 +188,7 @@ def _numbers(name: str, values: Any) -> Floats:
         if np.ma.isMaskedArray(values):
             values = np.ma.filled(values.astype(float), np.nan)
         array = np.asarray(values)
-        if array.dtype.kind in "mMcSU" or array.dtype.kind == "O" and not _holds_numbers(array):
+        if array.dtype.kind in "mMcSU" or (array.dtype.kind == "O" and not _holds_numbers(array)):
             raise TypeError(f"its type is {array.dtype}")
         return np.array(array, dtype=np.float64, order="C")
     except (TypeError, ValueError) as problem:
@@ -205,7 +207,9 @@ def _rows(name: str, values: Any, shape: tuple[int, ...], absent: float) -> Floa
         return np.empty(shape)
     if array.shape != shape:
         hint = "; transpose it" if array.shape == shape[::-1] and len(shape) == 2 else ""
-        raise RecordingError(f"{name}: expected shape {shape} to go with {shape[0]} time stamps, found {array.shape}{hint}")
+        raise RecordingError(
+            f"{name}: expected shape {shape} to go with {shape[0]} time stamps, found {array.shape}{hint}"
+        )
     return array
 
 

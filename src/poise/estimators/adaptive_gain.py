@@ -15,7 +15,7 @@ Departures from the print:
 from __future__ import annotations
 
 from math import exp as exponential
-from math import inf, pi
+from math import inf, pi, sqrt
 from typing import Annotated, Literal, NamedTuple, Self
 
 from poise.data.flags import CORRECTION_FORCED
@@ -26,9 +26,9 @@ from poise.math.quaternions import (
     angles_from,
     attitude_of,
     exp,
-    normalize,
     north_in_body,
     north_of,
+    renormalized,
     up_in_body,
     wrapped,
 )
@@ -47,7 +47,7 @@ class State(NamedTuple):
     still: float  # s since one of the chosen sensors last moved
     mean: float  # µ of the deviation
     variance: float  # s² of the deviation
-    count: int
+    judged: int  # deviations that µ and s² are made of
     forced: bool
 
 
@@ -60,7 +60,9 @@ class AdaptiveGain(NamedTuple):
     gain: Annotated[Literal["linear", "gaussian"], "choice", "how the gain goes from k_rest to k_fast"] = "gaussian"
     gain_width: Annotated[float, "m/s²", "width of the gaussian gain"] = 6.0
     rest_sensors: Annotated[
-        Literal["acc", "gyr", "mag", "acc+gyr", "acc+mag", "gyr+mag", "acc+gyr+mag"], "choice", "what must be still for rest"
+        Literal["acc", "gyr", "mag", "acc+gyr", "acc+mag", "gyr+mag", "acc+gyr+mag"],
+        "choice",
+        "what must be still for rest",
     ] = "acc+gyr"
     rest_acc: Annotated[float, "m/s²", "largest distance of a still specific force from its mean"] = 0.5
     rest_gyr: Annotated[float, "rad/s", "largest rate at rest"] = 0.05
@@ -70,7 +72,9 @@ class AdaptiveGain(NamedTuple):
         Literal["rate-norm", "rate-cross", "euler-sum"], "choice", "measure δ between a step with w and one with w_c"
     ] = "rate-norm"
     check: Annotated[
-        Literal["relative", "absolute", "off"], "choice", "|δ − µ| > n·s (claim 9), δ − µ > a threshold (claim 8), or neither"
+        Literal["relative", "absolute", "off"],
+        "choice",
+        "|δ − µ| > n·s (claim 9), δ − µ > a threshold (claim 8), or neither",
     ] = "absolute"
     check_factor: Annotated[float, "1", "n of the relative check"] = 3.0
     check_threshold: Annotated[float, "rad/s, rad²/s² or rad", "threshold of the absolute check"] = 0.00065
@@ -95,7 +99,7 @@ class AdaptiveGain(NamedTuple):
         w = sample.gyr - state.bias
         gravity, rested, still = state.gravity, state.rested, state.still
         mean_acc, mean_mag = state.mean_acc, state.mean_mag
-        mean, variance, count, forced = state.mean, state.variance, state.count, False
+        mean, variance, judged, forced = state.mean, state.variance, state.judged, False
         w_c = w
         if present(f):
             predicted = q * exp(T * w)
@@ -114,31 +118,33 @@ class AdaptiveGain(NamedTuple):
 
             # 2. Motion acceleration, 3. correction gain
             a_m = f - f_g
-            K = correction_gain(self, norm(a_m))
+            K = correction_gain(self, dot(a_m, a_m))
 
             # 4. Correction vector: measured × predicted, up and north
             up_measured = f / length
-            e = (sample.acc_dt / T) * cross(up_measured, up)
+            per_step = 1.0 / T  # a slower sensor's sample stands for the steps since its last one
+            e = (per_step * sample.acc_dt) * cross(up_measured, up)
             if present(m):
                 north_measured = north_of(up_measured, m, self.declination)
-                e = e + (sample.mag_dt / T) * cross(north_measured, north_in_body(predicted))
+                e = e + (per_step * sample.mag_dt) * cross(north_measured, north_in_body(predicted))
 
             # 5. Calibrated rate
             w_c = w + K * e
 
             # 6. Deviation check against the mean and standard deviation so far
             delta = deviation(self, q, w, w_c, T)
-            if count >= self.check_min_count and stands_out(self, delta, mean, variance):
+            if judged >= self.check_min_count and stands_out(self, delta, mean, variance):
                 forced = True
                 w_c = w + self.k_forced * e
-            count = min(count + 1, self.check_window)
+            judged = min(judged + 1, self.check_window)
             change = delta - mean
-            mean += change / count
-            variance += (change * (delta - mean) - variance) / count
+            weight = 1.0 / judged
+            mean += weight * change
+            variance += weight * (change * (delta - mean) - variance)
 
         # 7. Integrate
-        q = normalize(q * exp(T * w_c))
-        return State(q, state.bias, gravity, rested, mean_acc, mean_mag, still, mean, variance, count, forced)
+        q = renormalized(q * exp(T * w_c))
+        return State(q, state.bias, gravity, rested, mean_acc, mean_mag, still, mean, variance, judged, forced)
 
     def output(self, state: State, sample: Sample) -> Output:
         flags = CORRECTION_FORCED if state.forced else 0
@@ -171,14 +177,13 @@ def _uses_mag(method: AdaptiveGain) -> bool:
 
 
 @compiled
-def correction_gain(method: AdaptiveGain, a: float) -> float:
-    """K over the motion acceleration a = |a_m|: k_rest at 0, the preset k_fast above the threshold."""
-    if a > method.threshold:
+def correction_gain(method: AdaptiveGain, square: float) -> float:
+    """K over the motion acceleration, |a_m|² = *square*: k_rest at 0, the preset k_fast above the threshold."""
+    if square > method.threshold**2:
         return method.k_fast
     if method.gain == "linear":
-        return method.k_rest + (method.k_fast - method.k_rest) * a / method.threshold
-    ratio = a / method.gain_width
-    return method.k_fast + (method.k_rest - method.k_fast) * exponential(-0.5 * ratio * ratio)
+        return method.k_rest + (method.k_fast - method.k_rest) * sqrt(square) / method.threshold
+    return method.k_fast + (method.k_rest - method.k_fast) * exponential(-0.5 * square / method.gain_width**2)
 
 
 @compiled

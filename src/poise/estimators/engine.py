@@ -11,7 +11,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from poise.data.attitude import BIAS, COLUMNS, QUAT, Attitude, HeadingReference, Provenance
+from poise.data.attitude import COLUMNS, QUAT, Attitude, HeadingReference, Provenance
 from poise.data.flags import LOST, SILENT
 from poise.data.packet import Packet, Sample
 from poise.data.recording import Recording, samples
@@ -266,7 +266,12 @@ class Stream:
         self._latest = None
         if latest is not None:
             self._latest = Attitude(
-                aside[[_CLOCK]], np.array([latest]), np.array([latest_flags], np.uint32), heading, "enu", self._provenance
+                aside[[_CLOCK]],
+                np.array([latest]),
+                np.array([latest_flags], np.uint32),
+                heading,
+                "enu",
+                self._provenance,
             )
         return self
 
@@ -322,7 +327,9 @@ def estimate(
     Raises :class:`RecordingError` or :class:`MethodError` where the two cannot be used.
     """
     if not isinstance(recording, Recording):
-        raise RecordingError(f"expected a Recording, found {type(recording).__name__}; see poise.read and poise.Recording")
+        raise RecordingError(
+            f"expected a Recording, found {type(recording).__name__}; see poise.read and poise.Recording"
+        )
     stream = Stream(method, start, bias=bias, guard=guard, rest_bias=rest_bias)
     n, blocks = len(recording), []
     for first in range(0, max(n, 1), _BLOCK):

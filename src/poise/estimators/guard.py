@@ -21,7 +21,6 @@ from poise.math.compiled import compiled
 from poise.math.quaternions import IDENTITY, Quat, rotate, shortest_turn, up_in_body
 from poise.math.vectors import ABSENT, UP, Vec3, dot, norm, present, unit, within
 
-
 _REST_RATE, _REST_FORCE, _GRAVITY = 0.1, 0.5, 9.80665  # rad/s with any bias, m/s², m/s²
 
 
@@ -52,20 +51,26 @@ class Guard(NamedTuple):
     gap: Annotated[float, "s", "a longer step between stamps is flagged"] = 0.2
     longest_loss: Annotated[float, "s", "without rotation for longer, the attitude is unknown"] = 1.0
     acc_loss: Annotated[float, "s", "without accelerometer for longer, samples are flagged"] = 0.5
-    mag_loss: Annotated[float, "s", "without a magnetometer that was there before for longer, samples are flagged"] = 1.0
+    mag_loss: Annotated[float, "s", "without a magnetometer that was there before for longer, samples are flagged"] = (
+        1.0
+    )
     astray_angle: Annotated[float, "rad", "a tilt further from gravity, at rest, is wrong", (0.34, 3.2)] = radians(20.0)
     astray_time: Annotated[float, "s", "how long it may stay so before the method starts anew"] = 2.0
     longest_disorder: Annotated[int, "rows", "without a usable stamp for more, the attitude is unknown"] = 20
-    largest_gyr: Annotated[float, "rad/s", "a larger rate per axis is no measurement"] = 200.0
-    largest_acc: Annotated[float, "m/s²", "a larger specific force per axis is no measurement"] = 5000.0
-    largest_mag: Annotated[float, "µT", "a larger field per axis is no measurement"] = 1e6
+    largest_gyr: Annotated[float, "rad/s", "a larger rate is no measurement"] = 200.0
+    largest_acc: Annotated[float, "m/s²", "a larger specific force is no measurement"] = 5000.0
+    largest_mag: Annotated[float, "µT", "a larger field is no measurement"] = 1e6
 
     def start(self, sample: Sample, bias: Vec3) -> State:
         clean = _cleaned(self, sample, 0.0, 0.0)
         gyr = clean.gyr if present(clean.gyr) else bias
         seen = present(clean.acc)
         placeholder = resting_sample(IDENTITY, self.declination)
-        first = with_sensors(clean, gyr, clean.acc, clean.mag) if seen else with_sensors(placeholder, gyr, placeholder.acc, ABSENT)
+        first = (
+            with_sensors(clean, gyr, clean.acc, clean.mag)
+            if seen
+            else with_sensors(placeholder, gyr, placeholder.acc, ABSENT)
+        )
         inner = start(self.method, first, bias)
         aligned = seen and present(clean.mag)
         return State(inner, gyr, seen, aligned, False, 0.0, 0.0, 0.0, 0.0, 0, 0 if seen else INITIALISING)
@@ -97,9 +102,11 @@ class Guard(NamedTuple):
             inner = step(self.method, state.inner, sample)
             astray = 0.0
             if usable and _at_rest(sample):
-                up = up_in_body(output(self.method, inner, sample).attitude)
-                if dot(up, sample.acc) < cos(self.astray_angle) * norm(sample.acc):
-                    astray = state.astray + dt
+                along = dot(up_in_body(output(self.method, inner, sample).attitude), sample.acc)
+                # 0.9 < cos²(18.4°): nearer than any astray_angle, and the cosine is left for the rare case
+                if along < 0.0 or along * along < 0.9 * dot(sample.acc, sample.acc):
+                    off = along < cos(self.astray_angle) * norm(sample.acc)
+                    astray = state.astray + dt if off else 0.0
             lost = astray > self.astray_time
             if not lost:
                 return State(
@@ -156,16 +163,16 @@ def _restart(attitude: Quat, sample: Sample, lost: bool, declination: float) -> 
 @compiled
 def _at_rest(sample: Sample) -> bool:
     """No turning, and the length of gravity: an acceleration could then tilt the specific force by 18° at most."""
-    return within(sample.gyr, _REST_RATE) and abs(norm(sample.acc) - _GRAVITY) < _REST_FORCE
+    least, most = _GRAVITY - _REST_FORCE, _GRAVITY + _REST_FORCE
+    return within(sample.gyr, _REST_RATE) and least * least < dot(sample.acc, sample.acc) < most * most
 
 
 @compiled
 def _cleaned(guard: Guard, sample: Sample, acc_absent: float, mag_absent: float) -> Sample:
     """The sample with everything that is no measurement made absent; zeros point nowhere."""
-    gyr = sample.gyr if within(sample.gyr, guard.largest_gyr) else ABSENT
-    acc = sample.acc if within(sample.acc, guard.largest_acc) and dot(sample.acc, sample.acc) > 1e-6 else ABSENT
-    mag = sample.mag if within(sample.mag, guard.largest_mag) and dot(sample.mag, sample.mag) > 1e-18 else ABSENT
+    gyr = sample.gyr if dot(sample.gyr, sample.gyr) <= guard.largest_gyr**2 else ABSENT  # NaN is not
+    acc = sample.acc if 1e-6 < dot(sample.acc, sample.acc) <= guard.largest_acc**2 else ABSENT
+    mag = sample.mag if 1e-18 < dot(sample.mag, sample.mag) <= guard.largest_mag**2 else ABSENT
     dt = sample.dt
     acc_dt, mag_dt = min(acc_absent + dt, guard.gap), min(mag_absent + dt, guard.gap)
     return Sample(dt, gyr, acc, mag, sample.acc_age, sample.mag_age, acc_dt, mag_dt)
-

@@ -86,9 +86,7 @@ def _number(name: str, value: Any, parameter: Parameter) -> float | int:
         unit = f" ({parameter.unit})" if parameter.unit else ""
         raise MethodError(f"{name}: expected {expected}{unit}, found {value!r}") from None
     if not parameter.low <= number <= parameter.high:
-        raise MethodError(
-            f"{name}: expected {parameter.low:g} to {parameter.high:g} {parameter.unit}, found {value!r}"
-        )
+        raise MethodError(f"{name}: expected {parameter.low:g} to {parameter.high:g} {parameter.unit}, found {value!r}")
     return int(number) if parameter.kind is int else number
 
 

@@ -40,7 +40,9 @@ class RestBias(NamedTuple):
     acc_spread: Annotated[float, "m/s²", "largest distance of a still specific force from its mean, per axis"] = 0.5
     largest_bias: Annotated[float, "rad/s", "largest mean rate that still passes for bias, per axis"] = radians(2.0)
     initial_sigma: Annotated[float, "rad/s", "how well the bias is known before any rest"] = radians(1.0)
-    noise: Annotated[float, "rad/s/√Hz", "gyroscope white noise, which the mean over a rest averages out"] = radians(0.02)
+    noise: Annotated[float, "rad/s/√Hz", "gyroscope white noise, which the mean over a rest averages out"] = radians(
+        0.02
+    )
     floor: Annotated[float, "rad/s", "how well the mean of a long rest gives the bias in motion"] = radians(0.01)
     walk: Annotated[float, "rad/s/√s", "random walk of the bias between rests"] = radians(0.003)
 

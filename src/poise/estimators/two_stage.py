@@ -121,7 +121,9 @@ class TwoStage(NamedTuple):
 @compiled
 def rate_matrix(w: Vec3) -> Mat4:
     """Ω(w): q' = ½ Ω(w) q."""
-    return Mat4(Quat(0.0, -w.x, -w.y, -w.z), Quat(w.x, 0.0, w.z, -w.y), Quat(w.y, -w.z, 0.0, w.x), Quat(w.z, w.y, -w.x, 0.0))
+    return Mat4(
+        Quat(0.0, -w.x, -w.y, -w.z), Quat(w.x, 0.0, w.z, -w.y), Quat(w.y, -w.z, 0.0, w.x), Quat(w.z, w.y, -w.x, 0.0)
+    )
 
 
 @compiled
@@ -158,7 +160,9 @@ def levelled(x: Quat, acc: Vec3) -> Quat:
 @compiled
 def updated(P: Mat4, K: Mat43, HP: Mat34, S: Mat3, joseph: bool) -> Mat4:
     """(I − K H) P, or (I − K H) P (I − K H)ᵀ + K R Kᵀ multiplied out (Joseph), which holds for a projected gain too."""
-    KHP = K @ HP
+    KHP: Mat4 = K @ HP
     if joseph:
-        return P - KHP - transpose(KHP) + K @ S @ transpose(K)
+        PHK: Mat4 = transpose(KHP)
+        KSK: Mat4 = K @ S @ transpose(K)
+        return P - KHP - PHK + KSK
     return P - KHP

@@ -68,7 +68,7 @@ def _columns(thing: Attitude | Recording) -> dict[str, Any]:
 def _facts(thing: Attitude | Recording) -> dict[str, str]:
     if isinstance(thing, Attitude):
         return thing.metadata()
-    from poise import __version__
+    from poise.version import __version__
 
     facts = {
         "poise.kind": "recording",

@@ -24,7 +24,7 @@ def multiply(p: Floats, q: Floats) -> Floats:
 
 
 def conjugate(q: Floats) -> Floats:
-    return np.asarray(q) * np.array([1.0, -1.0, -1.0, -1.0])
+    return np.asarray(np.asarray(q) * np.array([1.0, -1.0, -1.0, -1.0]))
 
 
 def normalize(q: Floats) -> Floats:

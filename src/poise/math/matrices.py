@@ -129,7 +129,8 @@ def _mix4(weights: Quat, rows: Any) -> Any:
 @compiled
 def inverse(m: Mat3) -> Mat3:
     a, b, c = cross(m.y, m.z), cross(m.z, m.x), cross(m.x, m.y)
-    return transpose((1.0 / dot(m.x, a)) * Mat3(a, b, c))
+    adjugate: Mat3 = transpose(Mat3(a, b, c))
+    return (1.0 / dot(m.x, a)) * adjugate
 
 
 @compiled

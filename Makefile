@@ -1,0 +1,37 @@
+# `make demo` does the main job on a made recording, `make test` runs the tests; both need Python >= 3.11 and make only.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+RESULTS := build/demo
+
+.PHONY: demo test lint accuracy speed clean
+
+$(VENV)/ready: pyproject.toml
+	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "poise needs Python 3.11 or newer; set PYTHON=")'
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[all]'
+	touch $@
+
+demo: $(VENV)/ready
+	$(BIN)/python examples/01_made_recording.py $(RESULTS)/forearm.csv
+	$(BIN)/poise sniff $(RESULTS)/forearm.csv
+	$(BIN)/poise estimate $(RESULTS)/forearm.csv -o $(RESULTS)/forearm.attitude.parquet --plot $(RESULTS)/forearm.png
+	@echo "Look at $(RESULTS)/forearm.png; then try: $(BIN)/poise estimate YOUR_FILE --plot picture.png"
+
+test: $(VENV)/ready
+	$(BIN)/python -m pytest -n 2 --dist worksteal
+
+lint: $(VENV)/ready
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+accuracy: $(VENV)/ready
+	$(BIN)/python benchmarks/accuracy.py --peers
+
+speed: $(VENV)/ready
+	$(BIN)/python benchmarks/speed.py
+
+clean:
+	rm -rf $(VENV) build

@@ -1,0 +1,200 @@
+"""The benchmarks: what peers' adapters give is in ENU, w x y z; the comparison with stored figures finds what is worse."""
+
+from __future__ import annotations
+
+import os
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import ArrayLike, NDArray
+from scipy.spatial.transform import Rotation
+
+from helpers import angle_between, wxyz
+from poise import Attitude, Recording, TwoStage, estimate
+from poise.errors import RecordingError
+from poise.simulation import PERFECT, Sensor, at_rest, forearm, measure, turned_about_up
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
+
+import accuracy
+import speed
+from accuracy import Score
+from peers import PEERS, installed, period
+from stacked import Stacked
+from tables import table
+
+# Poses of a body with x right, y forward, z up: turned about up first, then about its own axes.
+POSES = {
+    "level, facing north": ("Z", 0),
+    "level, facing east": ("Z", -90),
+    "nose up, facing north": ("ZX", [0, 30]),
+    "right side down, facing east": ("ZY", [-90, 40]),
+    "tilted both ways, facing south-west": ("ZXY", [135, -35, 60]),
+}
+
+
+def outcome(name: str, recording: Recording) -> NDArray[np.float64]:
+    """The error of a peer, degrees a row; skips where its package is absent, and fails in CI."""
+    package = PEERS[name].package
+    if not installed(package):
+        reason = f"{package} is not installed (the extra 'peers' brings it)"
+        if os.environ.get("CI"):
+            pytest.fail(reason)
+        pytest.skip(reason)
+    assert recording.truth is not None
+    quat = PEERS[name].run(recording)
+    assert quat.shape == (len(recording), 4)
+    return np.degrees(angle_between(quat, recording.truth.quat))
+
+
+@pytest.mark.parametrize("pose", POSES)
+@pytest.mark.parametrize("name", PEERS)
+def test_a_perfect_sensor_at_rest_comes_out_in_enu(name: str, pose: str) -> None:
+    sequence, degrees = POSES[pose]
+    quat = wxyz(Rotation.from_euler(sequence, degrees, degrees=True))
+    error = outcome(name, measure(at_rest(quat, duration=15.0), PERFECT))
+    assert error[-1] < 1.0
+
+
+@pytest.mark.parametrize("name", PEERS)
+def test_the_adapters_poses_are_what_their_names_say(name: str) -> None:
+    """Against figures written by hand, not by the simulation: nose up by 30°, facing east, gravity and field in the body."""
+    n, (s, c) = 1500, (0.5, np.sqrt(0.75))
+    acc, mag = np.tile([0.0, 9.81 * s, 9.81 * c], (n, 1)), np.tile([-20.0, -40.0 * s, -40.0 * c], (n, 1))
+    quat = np.tile(wxyz(Rotation.from_matrix([[0, c, -s], [-1, 0, 0], [0, s, c]])), (n, 1))
+    time = np.arange(n) / 100.0
+    made = Recording(time=time, gyr=np.zeros((n, 3)), acc=acc, mag=mag, truth=Attitude.of(time, quat))
+    assert outcome(name, made)[-1] < 1.0
+
+
+@pytest.mark.parametrize("name", PEERS)
+def test_a_perfect_sensor_in_motion_comes_out_in_enu(name: str) -> None:
+    motion = turned_about_up(forearm(40.0, 160.0, seed=1), 2.0)  # at no package's default rate
+    error = outcome(name, measure(motion, PERFECT))[800:]
+    assert np.sqrt(np.mean(error**2)) < 3.0
+    assert error.max() < 6.0
+
+
+@pytest.mark.parametrize("fault", ["a gap", "an absent sample"])
+def test_peers_are_not_given_what_they_cannot_know(fault: str) -> None:
+    made = measure(at_rest(duration=2.0), PERFECT)
+    if fault == "a gap":
+        time = made.time.copy()
+        time[100:] += 0.01
+        made = replace(made, time=time, truth=None)
+    else:
+        made.mag[7] = np.nan
+    with pytest.raises(RecordingError, match="peers need"):
+        period(made)
+
+
+# -- accuracy ---------------------------------------------------------------------------------------------------------
+
+STORED = {"filter": {trial: Score(2.0, 1.8, 0.8, False, 0) for trial in ("01_a", "03_b", "05_c", "07_d")}}
+
+
+def changed(**trials: Score | None) -> list[str]:
+    """What the comparison says when some trials of STORED come out otherwise; None for not at all."""
+    measured = STORED["filter"] | {f"{name[1:]}": s for name, s in trials.items()}
+    return accuracy.compare(STORED, {"filter": {trial: s for trial, s in measured.items() if s is not None}})
+
+
+def total(value: float) -> Score:
+    return STORED["filter"]["01_a"]._replace(total=value)
+
+
+def test_better_and_half_a_percent_worse_pass() -> None:
+    assert changed() == []
+    assert changed(_01_a=total(1.0), _03_b=total(2.01)) == []
+
+
+def test_two_percent_worse_is_named() -> None:
+    (sentence,) = changed(_01_a=total(1.0), _05_c=total(2.04))
+    assert "05_c" in sentence
+    assert "+2.0%" in sentence
+
+
+def test_what_is_missing_is_named() -> None:
+    (sentence,) = changed(_03_b=None)
+    assert "03_b" in sentence
+    assert "not measured" in sentence
+    assert len(accuracy.compare(STORED, {})) == 4
+    assert accuracy.compare({}, STORED) == []  # new methods have nothing to be compared with
+
+
+def test_losing_the_attitude_is_worse_however_small_the_error() -> None:
+    better = total(1.0)
+    assert len(changed(_01_a=better._replace(diverged=True))) == 1
+    assert len(changed(_01_a=better._replace(missing=5))) == 1
+    assert len(changed(_01_a=total(float("nan")))) == 1
+
+
+def test_means_are_over_the_halves() -> None:
+    trials = {"01_a": total(1.0), "03_b": total(4.0), "05_c": total(2.0)}
+    means = accuracy.means(trials)
+    assert [means[half]["total"] for half in ("all", "chosen", "held-out")] == pytest.approx([7 / 3, 1.5, 4.0])
+    assert not accuracy.CHOSEN & accuracy.HELD_OUT
+    assert "held-out" not in accuracy.means({"01_a": total(1.0)})
+
+
+def test_figures_are_stored_and_read_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(accuracy, "RESULTS", tmp_path)
+    accuracy.store("accuracy.json", accuracy.document(STORED))
+    assert accuracy.load(tmp_path / "accuracy.json") == STORED
+    assert accuracy.check(STORED) == 0
+    assert accuracy.check({"filter": {}}) == 1
+    report = accuracy.report(STORED, markdown=True)
+    assert "| mean, chosen " in report
+
+
+@pytest.mark.parametrize(("ci", "code"), [("", 0), ("true", 1)])
+def test_without_recordings_it_says_so(ci: str, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("POISE_DATA", str(tmp_path))
+    monkeypatch.setenv("CI", ci)
+    assert accuracy.main([]) == code
+
+
+# -- speed ------------------------------------------------------------------------------------------------------------
+
+
+def test_one_stacked_update_is_the_two_stages() -> None:
+    made = measure(forearm(6.0, 100.0, seed=3), Sensor(mag_rate=20.0))
+    two = TwoStage(decouple=False)
+    stacked, staged = estimate(Stacked(two), made), estimate(two, made)
+    np.testing.assert_allclose(stacked.quat, staged.quat, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(stacked.sigma, staged.sigma, rtol=1e-6)
+    np.testing.assert_array_equal(stacked.flags, staged.flags)
+    assert stacked.heading_reference == staged.heading_reference
+
+
+def test_contenders_take_turns() -> None:
+    order: list[str] = []
+    runs: dict[str, speed.Run] = {"a": lambda: order.append("a"), "b": lambda: order.append("b")}
+    timings = speed.interleaved(speed.Group("", "ns", 0, 1, runs), rounds=3)
+    assert order == ["a", "b"] * 4  # the first turn is not counted
+    assert timings["a"].ratio_of_least == timings["a"].median_ratio == 1.0
+
+
+def torque(quat: ArrayLike, rate: ArrayLike) -> NDArray[np.float64]:
+    attitude = Attitude.of([0.0], [quat])
+    attitude.rate[:] = rate
+    return np.array(speed.torque(attitude))
+
+
+def test_the_torque_turns_to_the_target_and_damps() -> None:
+    target = Rotation.from_quat(speed.TARGET, scalar_first=True)
+    np.testing.assert_allclose(torque(speed.TARGET, [0.0, 0.0, 0.0]), 0.0, atol=1e-12)
+    np.testing.assert_allclose(torque(speed.TARGET, [1.0, -2.0, 3.0]), -speed.DAMPING * np.array([1.0, -2.0, 3.0]))
+    away = np.array([0.02, -0.01, 0.03])
+    for sign in (1.0, -1.0):  # q and −q are one attitude
+        pull = torque(sign * wxyz(target * Rotation.from_rotvec(away)), [0.0, 0.0, 0.0])
+        np.testing.assert_allclose(pull, -0.5 * speed.STIFFNESS * away, rtol=1e-3)
+
+
+def test_tables_line_up() -> None:
+    rows = [["a", 1.0, None], ["long", 22.5, 3]]
+    assert table(["", "x", "n"], rows, digits=1) == "         x  n\na      1.0  -\nlong  22.5  3"
+    assert table(["", "x"], [["a", 1.0]], markdown=True).splitlines()[1] == "| - | ----: |"
