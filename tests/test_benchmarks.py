@@ -24,10 +24,10 @@ import speed
 from accuracy import Score
 from peers import PEERS, installed, period
 from stacked import Stacked
-from tables import table
+from tables import Cell, table
 
 # Poses of a body with x right, y forward, z up: turned about up first, then about its own axes.
-POSES = {
+POSES: dict[str, tuple[str, float | list[float]]] = {
     "level, facing north": ("Z", 0),
     "level, facing east": ("Z", -90),
     "nose up, facing north": ("ZX", [0, 30]),
@@ -179,7 +179,7 @@ def test_contenders_take_turns() -> None:
 
 
 def torque(quat: ArrayLike, rate: ArrayLike) -> NDArray[np.float64]:
-    attitude = Attitude.of([0.0], [quat])
+    attitude = Attitude.of([0.0], np.array([quat], float))
     attitude.rate[:] = rate
     return np.array(speed.torque(attitude))
 
@@ -195,6 +195,6 @@ def test_the_torque_turns_to_the_target_and_damps() -> None:
 
 
 def test_tables_line_up() -> None:
-    rows = [["a", 1.0, None], ["long", 22.5, 3]]
+    rows: list[list[Cell]] = [["a", 1.0, None], ["long", 22.5, 3]]
     assert table(["", "x", "n"], rows, digits=1) == "         x  n\na      1.0  -\nlong  22.5  3"
     assert table(["", "x"], [["a", 1.0]], markdown=True).splitlines()[1] == "| - | ----: |"

@@ -290,5 +290,18 @@ def test_real_file():
     assert recording.source == str(path) and recording.name == "x-io_fusion_sensor_data"
     assert len(recording.source_hash) == 64
     assert sniffed.rate_hz == pytest.approx(99.2, abs=0.1) and sniffed.sensors["gyr"].unit == "deg/s"
-    assert any("mag: 80% of rows repeat" in doubt for doubt in sniffed.doubts)
+    assert any("mag: slower than the gyroscope" in note for note in sniffed.notes)
+    assert np.isfinite(recording.mag[:, 0]).mean() == pytest.approx(0.2, abs=0.02)
     assert recording.notes == sniffed.notes + sniffed.doubts
+
+
+def test_a_held_slower_sensor_counts_once(made):
+    """A magnetometer at a fifth of the rate, repeated; then at rest on a coarse grid, where it never changes."""
+    n = 1000
+    slow = np.repeat(np.round(30 * np.sin(np.arange(n // 5) * 0.3), 2), 5)
+    slow[600:] = slow[600]
+    rows = "".join(f"{i * 0.01:.2f},{i % 7}.5,{i % 11}.25,-0.3,0.5,-0.25,9.{i % 97:02d},{slow[i]:.2f},1.5,-40\n" for i in range(n))
+    recording = read(made(HEADER + rows))
+    rows_with_mag = np.flatnonzero(np.isfinite(recording.mag[:, 0]))
+    np.testing.assert_array_equal(rows_with_mag, np.arange(0, n, 5))
+    assert np.isfinite(recording.acc).all()

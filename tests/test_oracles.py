@@ -117,7 +117,6 @@ def test_slower_sensors(method_class: Any, sensors: dict[str, int]) -> None:
     assert disagreement(method_class(), every(recording("forearm"), **sensors)) < TOLERANCE
 
 
-@pytest.mark.xfail(strict=True, reason="TwoStage takes the measured heading as 0 in rows without a magnetometer sample")
 @pytest.mark.parametrize("thinned", [six_axes, lambda full: every(full, mag=4)], ids=["six axes", "slower mag"])
 @pytest.mark.parametrize("method", [poise.TwoStage.as_printed(), poise.TwoStage(stage1_heading="measured")], ids=label)
 def test_no_measured_heading(method: poise.TwoStage, thinned: Callable[[poise.Recording], poise.Recording]) -> None:

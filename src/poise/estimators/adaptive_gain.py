@@ -64,9 +64,9 @@ class AdaptiveGain(NamedTuple):
         "choice",
         "what must be still for rest",
     ] = "acc+gyr"
-    rest_acc: Annotated[float, "m/s²", "largest distance of a still specific force from its mean"] = 0.5
+    rest_acc: Annotated[float, "m/s²", "largest distance of a still specific force from its mean, per axis"] = 0.5
     rest_gyr: Annotated[float, "rad/s", "largest rate at rest"] = 0.05
-    rest_mag: Annotated[float, "rad", "largest angle of a still field from its mean"] = 0.02
+    rest_mag: Annotated[float, "1", "largest distance of a still field's direction from its mean, per axis"] = 0.02
     rest_time: Annotated[float, "s", "how long all chosen sensors must be still"] = 0.5
     deviation: Annotated[
         Literal["rate-norm", "rate-cross", "euler-sum"], "choice", "measure δ between a step with w and one with w_c"
@@ -91,7 +91,7 @@ class AdaptiveGain(NamedTuple):
 
     def start(self, sample: Sample, bias: Vec3) -> State:
         attitude = attitude_of(sample.acc, sample.mag, self.declination)
-        mean_mag = unit(sample.mag) if present(sample.mag) else ZERO
+        mean_mag = unit(sample.mag) if present(sample.mag) else ABSENT
         return State(attitude, bias, 9.80665, 0.0, sample.acc, mean_mag, 0.0, 0.0, 0.0, 0, False)
 
     def step(self, state: State, sample: Sample) -> State:
@@ -109,7 +109,7 @@ class AdaptiveGain(NamedTuple):
             smooth = T / (_MEAN_TIME + T)
             mean_acc = mean_acc + smooth * (f - mean_acc)
             if _uses_mag(self) and present(m):
-                mean_mag = mean_mag + smooth * (unit(m) - mean_mag)
+                mean_mag = mean_mag + smooth * (unit(m) - mean_mag) if present(mean_mag) else unit(m)
             still = still + T if is_still(self, w, f, m, mean_acc, mean_mag) else 0.0
             if still >= self.rest_time:
                 rested += T
@@ -136,9 +136,9 @@ class AdaptiveGain(NamedTuple):
             if judged >= self.check_min_count and stands_out(self, delta, mean, variance):
                 forced = True
                 w_c = w + self.k_forced * e
-            judged = min(judged + 1, self.check_window)
+            judged += 1
             change = delta - mean
-            weight = 1.0 / judged
+            weight = 1.0 / min(judged, self.check_window)
             mean += weight * change
             variance += weight * (change * (delta - mean) - variance)
 
@@ -153,12 +153,14 @@ class AdaptiveGain(NamedTuple):
 
 @compiled
 def is_still(method: AdaptiveGain, w: Vec3, f: Vec3, m: Vec3, mean_acc: Vec3, mean_mag: Vec3) -> bool:
-    """Whether every chosen sensor is still; one without a sample now does not object."""
+    """Whether every chosen sensor is still; one without a sample now does not object, one that never had any does."""
     if _uses_gyr(method) and dot(w, w) > method.rest_gyr**2:
         return False
     if _uses_acc(method) and not within(f - mean_acc, method.rest_acc):
         return False
-    return not (_uses_mag(method) and present(m) and not within(unit(m) - mean_mag, method.rest_mag))
+    if _uses_mag(method):
+        return present(mean_mag) and (not present(m) or within(unit(m) - mean_mag, method.rest_mag))
+    return True
 
 
 @compiled

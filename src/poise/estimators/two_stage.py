@@ -82,7 +82,8 @@ class TwoStage(NamedTuple):
         if present(sample.acc):
             doubt = self.motion_factor * abs(norm(f) - self.gravity) / self.gravity
             r_a = (self.acc_noise / self.gravity * (1.0 + doubt)) ** 2 / sample.acc_dt
-            q_1 = q_am if self.stage1_heading == "measured" else levelled(x, f)
+            measured = self.stage1_heading == "measured" and present(sample.mag)
+            q_1 = q_am if measured else levelled(x, f)
             H1 = up_matrix(q_1)
             z1 = H1 @ q_1  # the first-stage iteration state value
             HP = H1 @ P

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,7 @@ from poise.errors import FormatError
 from poise.formats import evidence, units
 from poise.formats.attitudes import reference
 from poise.formats.evidence import Verdict
+from poise.formats.held import fresh
 from poise.formats.limits import Options
 from poise.formats.names import QUAT as QUAT_NAMES
 from poise.formats.names import SENSORS
@@ -219,10 +220,14 @@ def _say(values: dict[str, Any], sensors: dict[str, SensorFacts], table: Table) 
         table.doubts.append(f"time: {backward} stamps do not rise above the one before")
     for sensor in ("acc", "mag"):
         rows = values[sensor]
-        if rows is not None and len(rows) > 100:
-            repeats = float(np.mean((rows[1:] == rows[:-1]).all(axis=1)))
-            if repeats > 0.3:
-                table.doubts.append(f"{sensor}: {repeats:.0%} of rows repeat the sample before: a slower sensor held?")
+        if rows is not None and not table.own and (held := fresh(rows)):
+            new, usual = held
+            rows[~new] = np.nan
+            sensors[sensor] = replace(sensors[sensor], samples=int(new.sum()))
+            table.notes.append(
+                f"{sensor}: slower than the gyroscope, each sample was repeated over {usual} rows; "
+                f"the repeats are left out ({np.mean(new):.0%} of the rows hold a sample)"
+            )
 
 
 def _sniffed(recording: Recording, table: Table, sensors: dict[str, SensorFacts]) -> Sniffed:
