@@ -1,6 +1,6 @@
 """Make a small recording of a forearm with an inexpensive sensor and write it as a CSV file.
 
-    python examples/01_made_recording.py forearm.csv
+python examples/01_made_recording.py forearm.csv
 """
 
 import sys

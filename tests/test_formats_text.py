@@ -300,7 +300,9 @@ def test_a_held_slower_sensor_counts_once(made):
     n = 1000
     slow = np.repeat(np.round(30 * np.sin(np.arange(n // 5) * 0.3), 2), 5)
     slow[600:] = slow[600]
-    rows = "".join(f"{i * 0.01:.2f},{i % 7}.5,{i % 11}.25,-0.3,0.5,-0.25,9.{i % 97:02d},{slow[i]:.2f},1.5,-40\n" for i in range(n))
+    rows = "".join(
+        f"{i * 0.01:.2f},{i % 7}.5,{i % 11}.25,-0.3,0.5,-0.25,9.{i % 97:02d},{slow[i]:.2f},1.5,-40\n" for i in range(n)
+    )
     recording = read(made(HEADER + rows))
     rows_with_mag = np.flatnonzero(np.isfinite(recording.mag[:, 0]))
     np.testing.assert_array_equal(rows_with_mag, np.arange(0, n, 5))

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 
 from poise.version import __version__ as __version__
 
-
 # Names are imported when they are first used: `poise --help` must not wait for a compiler.
 _HOME = {
     "AdaptiveGain": "poise.estimators.adaptive_gain",

@@ -67,6 +67,7 @@ def estimate(
             attitude = running.estimate(recording, progress=lambda done: tell("estimating", 0.2 + 0.6 * done / n))
             return _finished(file, recording, attitude.to(frame), targets[file], pictures.get(file), tell)
 
+        running.warm()
         results, code = show.each(files, work)
     except UsageError as error:
         show.problem(error)
@@ -88,6 +89,8 @@ def _finished(
     from poise.formats import write
 
     tell("writing", 0.8)
+    for place in filter(None, (target, picture)):
+        place.parent.mkdir(parents=True, exist_ok=True)
     write(attitude, target)
     errors = evaluate(attitude, recording) if recording.truth is not None else None
     if picture:
@@ -155,6 +158,8 @@ def _targets(
     else:
         places = {file: target / (file.stem + ending) for file in files}
     inputs = {file.resolve() for file in files}
+    if len(inputs) < len(files):
+        usage("a recording is given twice")
     taken: dict[Path, Path] = {}
     for file, place in places.items():
         if place.resolve() in inputs:

@@ -13,7 +13,6 @@ from poise.cli.options import Reading, Running, UsageError, usage
 from poise.errors import FormatError, RecordingError
 
 if TYPE_CHECKING:
-    from poise.data.attitude import Attitude
     from poise.data.recording import Recording
 
 
@@ -39,7 +38,8 @@ def evaluate(
     files
         Recordings, or attitudes written by poise.
     reference
-        An attitude to compare with (Parquet or CSV by poise, or TUM text), on the recording's clock.
+        What to compare with, on the recording's clock: an attitude (Parquet or CSV by poise, TUM text) or a recording
+        with a reference in it.
     plot
         A picture of one FILE's attitude, reference and error (.png, .svg, .pdf).
     json
@@ -55,6 +55,7 @@ def evaluate(
         def work(file: Path, tell: Callable[[str, float], None]) -> dict[str, Any]:
             return _evaluated(file, reference, plot, reading, running, tell)
 
+        running.warm()
         results, code = show.each(files, work)
     except UsageError as error:
         show.problem(error)
@@ -75,14 +76,18 @@ def _evaluated(
     from poise.formats import read_attitude
 
     tell("reading", 0.0)
-    truth = None if reference is None else _reference(reference, reading)
+    truth = None if reference is None else read_attitude(reference)
     recording: Recording | None = None
     try:
-        attitude = read_attitude(file)
-        if truth is None:
-            raise RecordingError("is an attitude; give what to compare it with: --reference FILE")
-    except FormatError:
         recording = reading.read(file)
+    except FormatError as no_recording:
+        try:
+            attitude = read_attitude(file)
+        except FormatError:
+            raise no_recording from None
+        if truth is None:
+            raise RecordingError("is an attitude; give what to compare it with: --reference FILE") from None
+    else:
         tell("estimating (a first run compiles the method)", 0.3)
         attitude = running.estimate(recording)
     against = truth if truth is not None else recording
@@ -102,21 +107,6 @@ def _evaluated(
         "missing": errors.missing,
         "diverged": errors.diverged,
     }
-
-
-def _reference(path: Path, reading: Reading) -> Attitude:
-    from poise.formats import read_attitude
-
-    try:
-        return read_attitude(path)
-    except FormatError as problem:
-        try:
-            truth = reading.read(path).truth
-        except FormatError:
-            raise problem from None
-        if truth is None:
-            raise RecordingError(f"{path}: no reference attitude in it") from None
-        return truth
 
 
 def _report(results: list[dict[str, Any]], method: str, json: bool) -> None:

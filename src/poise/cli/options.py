@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import threading
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import date as Date
 from pathlib import Path
@@ -129,6 +131,17 @@ class Running:
         from poise.estimators.engine import estimate
 
         return estimate(self.build(), recording, start, rest_bias=self.rest_bias, progress=progress)
+
+    def warm(self) -> None:
+        """Load (or, the first time, compile) the method in the background, while a file is read."""
+
+        def run() -> None:
+            from poise.data.recording import Recording
+
+            with suppress(PoiseError):  # said where the real recording is estimated
+                self.estimate(Recording.at_rate(100.0, [[0.0, 0.0, 0.0]], [[0.0, 0.0, 9.8]]))
+
+        threading.Thread(target=run, daemon=True).start()
 
     def _declination(self) -> float | None:
         if self.place is None:

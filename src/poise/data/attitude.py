@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from poise.data import axes
+from poise.data import arrow, axes
 from poise.data.flags import GAP, LOST, SENTENCES, Flag, valid
 from poise.errors import RecordingError
 from poise.math import arrays
@@ -335,9 +335,7 @@ class Attitude:
 
     def to_arrow(self) -> pyarrow.Table:
         """An Arrow table with :meth:`columns` and, as its schema's metadata, :meth:`metadata`."""
-        import pyarrow
-
-        return pyarrow.table(self.columns()).replace_schema_metadata(self.metadata())
+        return arrow.table(self.columns()).replace_schema_metadata(self.metadata())
 
     def to_frame(self, backend: Literal["pandas", "polars"] = "pandas") -> Any:
         """A pandas or polars data frame of :meth:`columns`."""

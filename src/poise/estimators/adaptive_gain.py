@@ -32,7 +32,7 @@ from poise.math.quaternions import (
     up_in_body,
     wrapped,
 )
-from poise.math.vectors import ABSENT, ZERO, Vec3, cross, dot, norm, present, unit, within
+from poise.math.vectors import ABSENT, Vec3, cross, dot, norm, present, unit, within
 
 _MEAN_TIME = 0.5  # s, time constant of the means that stillness is judged against
 

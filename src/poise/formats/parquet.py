@@ -5,8 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
+from poise.data import arrow
 from poise.errors import FormatError
 from poise.formats import names
 from poise.formats.limits import Options, check_expansion
@@ -68,7 +67,7 @@ def columns(
             elif not _is_number(kinds[name]):
                 raise FormatError(f"{where}: column {name!r} ({key}) holds {kinds[name]}, expected numbers")
         for batch in file.iter_batches(_BATCH, columns=list(wanted.values()), use_threads=False):
-            blocks.add([_floats(batch.column(name)) for name in wanted.values()])
+            blocks.add([arrow.floats(batch.column(name)) for name in wanted.values()])
     except (pyarrow.ArrowException, OSError, ValueError, KeyError) as problem:
         raise FormatError(f"{where}: damaged Parquet file ({_short(problem)}); copy or export it again") from None
     if blocks.rows != rows:
@@ -80,15 +79,6 @@ def _is_number(kind: Any) -> bool:
     from pyarrow import types
 
     return any(check(kind) for check in (types.is_floating, types.is_integer, types.is_boolean, types.is_decimal))
-
-
-def _floats(column: Any) -> Floats:
-    import pyarrow
-
-    if pyarrow.types.is_timestamp(column.type):
-        micro = column.cast(pyarrow.timestamp("us", column.type.tz), safe=False).to_numpy(zero_copy_only=False)
-        return np.where(np.isnat(micro), np.nan, micro.astype("datetime64[us]").astype(np.int64) / 1e6)
-    return np.asarray(column.cast(pyarrow.float64(), safe=False).to_numpy(zero_copy_only=False), dtype=np.float64)
 
 
 def _short(problem: BaseException) -> str:

@@ -12,6 +12,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
+from poise.data import arrow
 from poise.errors import FormatError
 from poise.formats import names, text_head
 from poise.formats.limits import Limits, Options
@@ -149,7 +150,7 @@ class _Parser:
             expected -= len(re.findall(rb"(?m)^\n", block))
             if table.num_rows != expected:
                 self._refuse(line, block, f"{expected} lines gave {table.num_rows} rows")
-        return [self._floats(table.column(f"c{index}")) for index in self.columns.values()]
+        return [arrow.floats(table.column(f"c{index}")) for index in self.columns.values()]
 
     def _parse(self, block: bytes) -> Any:
         import pyarrow
@@ -172,13 +173,6 @@ class _Parser:
                 decimal_point=self.dialect.decimal,
             ),
         )
-
-    def _floats(self, column: Any) -> Floats:
-        values = column.to_numpy()
-        if values.dtype.kind == "M":
-            micro = values.astype("datetime64[us]")  # as float64 exact, unlike nanoseconds
-            return np.where(np.isnat(micro), np.nan, micro.astype(np.int64) / 1e6)
-        return np.asarray(values, dtype=np.float64)
 
     def is_cut(self, line: bytes) -> bool:
         """Whether the last line, which no line break ends, is the beginning of a row only."""

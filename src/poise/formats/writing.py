@@ -10,6 +10,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
+from poise.data import arrow
 from poise.data.attitude import Attitude
 from poise.data.recording import Recording
 from poise.errors import FormatError
@@ -86,11 +87,8 @@ def _facts(thing: Attitude | Recording) -> dict[str, str]:
 
 def _tables(thing: Attitude | Recording) -> Iterator[Any]:
     """Arrow tables of a block of rows each; at least one."""
-    import pyarrow
-
     for start in range(0, max(len(thing), 1), _BLOCK):
-        columns = _columns(thing[start : start + _BLOCK])
-        yield pyarrow.table({name: np.ascontiguousarray(values) for name, values in columns.items()})
+        yield arrow.table(_columns(thing[start : start + _BLOCK]))
 
 
 def _parquet(thing: Attitude | Recording, file: BinaryIO) -> None:
@@ -123,13 +121,11 @@ def _tum(attitude: Attitude, file: BinaryIO) -> None:
         left_out = len(attitude) - len(kept)
         file.write(f"# {left_out} of {len(attitude)} rows have no attitude and are left out\n".encode())
     file.write(f"# {' '.join(TUM)}\n".encode())
-    import pyarrow
-
     for start in range(0, len(kept), _BLOCK):
         block = kept[start : start + _BLOCK]
         zero = np.zeros(len(block))
         columns = [block.time, zero, zero, zero, *block.quat_xyzw.T]
-        _rows(pyarrow.table(dict(zip(TUM, map(np.ascontiguousarray, columns), strict=True))), file, " ")
+        _rows(arrow.table(dict(zip(TUM, columns, strict=True))), file, " ")
 
 
 def _npz(recording: Recording, file: BinaryIO) -> None:

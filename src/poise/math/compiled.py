@@ -115,9 +115,12 @@ def _describe(numba_type: Any) -> str:
     return f"{name}({','.join(map(_describe, children))})" if cls or children else f"{name}{numba_type}"
 
 
+_OPTIONS: Any = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
+
+
 def compiled(function: F) -> F:
     """Compile *function* for use inside other kernels."""
-    return function if PLAIN_PYTHON else numba.njit(function, nogil=True, error_model="numpy")
+    return function if PLAIN_PYTHON else numba.njit(function, **_OPTIONS)
 
 
 def entry(function: F) -> F:
@@ -145,18 +148,16 @@ def direct(kernel: Any, *args: Any) -> Callable[..., Any]:
 
 
 # A call that is not inlined passes every number of a nested NamedTuple through the stack: 100 ns a sample in all.
-_INLINE = {"forceinline": True, "error_model": "numpy"}
+_INLINE: Any = {"forceinline": True, "error_model": "numpy"}
 
 
 @cache
 def kernel_of(numba_type: Any, name: str) -> Any:
     """The compiled method *name* of the NamedTuple class behind a numba type, or None."""
     method = getattr(getattr(numba_type, "instance_class", None), name, None)
-    return (
-        numba.njit(method, nogil=True, error_model="numpy", forceinline=name != "start")
-        if inspect.isfunction(method)
-        else None
-    )
+    if not inspect.isfunction(method):
+        return None
+    return numba.njit(method, forceinline=name != "start", no_cpython_wrapper=True, **_OPTIONS)
 
 
 def dispatched(name: str, default: Callable[..., Any] | None = None) -> Callable[..., Any]:

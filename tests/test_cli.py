@@ -1,0 +1,192 @@
+"""The command as a user meets it: results, exit codes, one line per problem, nothing half-written."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import poise
+from data_files import data_path
+from poise.cli import run
+from poise.formats import read_attitude
+from poise.simulation import Sensor, forearm, measure
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty current folder with a made recording in it."""
+    monkeypatch.chdir(tmp_path)
+    poise.write(measure(forearm(8.0), Sensor(), seed=1), tmp_path / "made.csv")
+    return tmp_path
+
+
+def refused(capsys: pytest.CaptureFixture[str], *arguments: str, code: int, says: str) -> None:
+    assert run(list(arguments)) == code
+    lines = capsys.readouterr().err.strip().splitlines()
+    assert len(lines) == 1, lines
+    assert re.search(says, lines[0]), lines[0]
+    assert "Traceback" not in lines[0]
+
+
+def test_help_needs_no_compiler() -> None:
+    script = "import sys; from poise.cli import run; run(['--help']); print([m for m in ('numba', 'numpy') if m in sys.modules])"
+    result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert "estimate" in result.stdout
+    assert result.stdout.rstrip().endswith("[]")
+
+
+@pytest.mark.parametrize("command", ["estimate", "evaluate", "sniff", "methods"])
+def test_every_command_explains_itself(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run([command, "--help"]) == 0
+    text = capsys.readouterr().out
+    assert f"poise {command}" in text
+    assert len(text) > 400
+
+
+def test_estimate_writes_the_attitude_beside_its_facts(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["estimate", "made.csv", "--plot", "made.png"]) == 0
+    out = capsys.readouterr().out
+    assert "made.attitude.parquet" in out
+    assert (folder / "made.png").read_bytes().startswith(b"\x89PNG")
+    attitude = read_attitude(folder / "made.attitude.parquet")
+    expected = poise.estimate(poise.TwoStage(), poise.read("made.csv"))
+    np.testing.assert_array_equal(attitude.quat, expected.quat)
+    assert attitude.provenance.method == "TwoStage"
+    assert attitude.provenance.source_hash
+
+
+def test_estimate_json_frames_methods_and_parameters(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ["estimate", "made.csv", "-m", "adaptive-gain", "--set", "k_rest=0.3", "--frame", "ned", "--json"]
+    assert run([*arguments, "-o", "out.csv", "--declination", "4"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    assert report["method"] == "adaptive-gain"
+    assert report["results"][0]["heading"] == "true"
+    attitude = read_attitude(folder / "out.csv")
+    assert attitude.frame == "ned"
+    method = poise.AdaptiveGain(k_rest=0.3, declination=np.radians(4))
+    expected = poise.estimate(method, poise.read("made.csv")).to("ned")
+    np.testing.assert_allclose(attitude.quat, expected.quat, atol=1e-15)
+
+
+def test_place_and_date_give_the_declination(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["estimate", "made.csv", "--place", "52.5,13.4", "--date", "2024-07-01", "-o", "a.parquet"]) == 0
+    assert run(["estimate", "made.csv", "--declination", "5.0", "-o", "b.parquet"]) == 0
+    a, b = read_attitude(folder / "a.parquet"), read_attitude(folder / "b.parquet")
+    assert np.degrees(a.heading()[-1] - b.heading()[-1]) == pytest.approx(0.0, abs=0.1)
+    capsys.readouterr()
+
+
+def test_evaluate_against_the_file_and_beside_it(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["evaluate", "made.csv", "--json"]) == 0
+    inside = json.loads(capsys.readouterr().out)["results"][0]["rmse_deg"]
+    recording = poise.read("made.csv")
+    errors = poise.evaluate(poise.estimate(poise.TwoStage(), recording), recording)
+    assert inside["total"] == pytest.approx(errors.rmse_deg().total)
+    assert recording.truth is not None
+    poise.write(recording.truth, folder / "truth.tum")
+    assert run(["estimate", "made.csv", "-o", "est.parquet"]) == 0
+    capsys.readouterr()
+    assert run(["evaluate", "est.parquet", "--reference", "truth.tum", "--json"]) == 0
+    beside = json.loads(capsys.readouterr().out)["results"][0]["rmse_deg"]
+    assert beside["heading"] == pytest.approx(inside["heading"], abs=0.3)
+
+
+def test_methods_lists_and_explains(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["methods"]) == 0
+    listed = capsys.readouterr().out
+    assert all(name in listed for name in poise.METHODS)
+    for name in poise.METHODS:
+        assert run(["methods", name]) == 0
+        assert "Departures from the print" in capsys.readouterr().out
+    assert run(["methods", "--json"]) == 0
+    assert {entry["method"] for entry in json.loads(capsys.readouterr().out)} == set(poise.METHODS)
+
+
+def test_sniff_says_what_it_is(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["sniff", "made.csv"]) == 0
+    text = capsys.readouterr().out
+    assert "rad/s" in text
+    assert "Hz" in text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["estimate"], "FILE"),
+        (["estimate", "made.csv", "--nonsense"], "nonsense"),
+        (["estimate", "made.csv", "-m", "kalman"], "two-stage, adaptive-gain"),
+        (["estimate", "made.csv", "--set", "nope=1"], "NAME=VALUE"),
+        (["estimate", "made.csv", "--set", "mag_noise=-1"], "mag_noise"),
+        (["estimate", "made.csv", "--set", "mag_noise=much"], "expected a number"),
+        (["estimate", "made.csv", "--place", "52.5,13.4"], "--date"),
+        (["estimate", "made.csv", "--place", "Berlin", "--date", "2024-01-01"], "LAT,LON"),
+        (["estimate", "made.csv", "--place", "52,13", "--date", "1999-01-01"], "2010 to 2029"),
+        (["estimate", "made.csv", "--declination", "1", "--place", "52,13", "--date", "2024-01-01"], "give one"),
+        (["estimate", "made.csv", "-o", "made.csv"], "nothing is written over an input"),
+        (["estimate", "made.csv", "-o", "out.xyz"], "ending in"),
+        (["estimate", "made.csv", "./made.csv"], "twice"),
+        (["estimate", "made.csv", "--units", "deg"], "pairs such as"),
+        (["methods", "kalman"], "no method"),
+        (["evaluate", "made.csv", "made.csv", "--plot", "a.png"], "one at a time"),
+        (["fly"], "fly"),
+    ],
+)
+def test_usage_errors_are_one_line_and_code_2(
+    folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], says: str
+) -> None:
+    refused(capsys, *arguments, code=2, says=says)
+    assert [path.name for path in folder.iterdir()] == ["made.csv"]
+
+
+def test_bad_files_are_told_and_the_good_ones_done(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "empty.csv").touch()
+    (folder / "text.csv").write_text("hello\nworld\n")
+    (folder / "picture.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(100))
+    assert run(["estimate", "missing.csv", "empty.csv", "text.csv", "picture.png", "made.csv", "-o", "out"]) == 1
+    captured = capsys.readouterr()
+    problems = [line for line in captured.err.splitlines() if line.startswith("poise:")]
+    assert len(problems) == 4
+    assert [path.name for path in (folder / "out").iterdir()] == ["made.attitude.parquet"]
+
+
+def test_an_unwritable_place_is_told(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "taken").write_text("a file, not a folder")
+    refused(capsys, "estimate", "made.csv", "-o", "taken/out.parquet", code=1, says="taken")
+
+
+def test_no_reference_is_told(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    recording = poise.read("made.csv")
+    bare = poise.Recording(recording.time, recording.gyr, recording.acc, recording.mag)
+    poise.write(bare, folder / "bare.csv")
+    refused(capsys, "evaluate", "bare.csv", code=1, says="no reference")
+
+
+BROAD = [
+    "01_undisturbed_slow_rotation_A.mat",
+    "21_undisturbed_fast_combined.mat",
+    "33_disturbed_attached_magnet_2cm.mat",
+]
+
+
+@pytest.mark.parametrize("method", list(poise.METHODS))
+def test_real_recordings_with_no_options(
+    method: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    files = [str(data_path("broad", name)) for name in BROAD]
+    files.append(str(data_path("other", "x-io_fusion_sensor_data.csv")))
+    monkeypatch.chdir(tmp_path)
+    assert run(["estimate", *files, "-m", method, "--json"]) == 0
+    results: list[dict[str, Any]] = json.loads(capsys.readouterr().out)["results"]
+    assert [result["valid"] for result in results] == pytest.approx([1.0] * 4)
+    errors = [result["error_deg"]["total"] for result in results[:3]]
+    assert max(errors) < 20.0
+    assert errors[0] < 3.0
+    assert results[3]["error_deg"] is None
+    assert len(list(tmp_path.glob("*.attitude.parquet"))) == 4
