@@ -36,7 +36,8 @@ def refused(capsys: pytest.CaptureFixture[str], *arguments: str, code: int, says
 
 
 def test_help_needs_no_compiler() -> None:
-    script = "import sys; from poise.cli import run; run(['--help']); print([m for m in ('numba', 'numpy') if m in sys.modules])"
+    loaded = "[m for m in ('numba', 'numpy') if m in sys.modules]"
+    script = f"import sys; from poise.cli import run; run(['--help']); print({loaded})"
     result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert "estimate" in result.stdout
     assert result.stdout.rstrip().endswith("[]")

@@ -28,7 +28,7 @@ def _array(values: NDArray[Any]) -> Any:
     dense = np.ascontiguousarray(values)
     kind = pyarrow.from_numpy_dtype(dense.dtype)
     bits = np.packbits(dense, bitorder="little") if dense.dtype == bool else dense
-    return pyarrow.Array.from_buffers(kind, len(dense), [None, pyarrow.py_buffer(memoryview(bits).cast("B"))])
+    return pyarrow.Array.from_buffers(kind, len(dense), [None, pyarrow.py_buffer(bits.data)])
 
 
 def floats(column: Any) -> NDArray[np.float64]:

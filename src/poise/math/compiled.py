@@ -157,7 +157,8 @@ def kernel_of(numba_type: Any, name: str) -> Any:
     method = getattr(getattr(numba_type, "instance_class", None), name, None)
     if not inspect.isfunction(method):
         return None
-    return numba.njit(method, forceinline=name != "start", no_cpython_wrapper=True, **_OPTIONS)
+    options = _OPTIONS | {"forceinline": name != "start", "no_cpython_wrapper": True}
+    return numba.njit(method, **options)
 
 
 def dispatched(name: str, default: Callable[..., Any] | None = None) -> Callable[..., Any]:
