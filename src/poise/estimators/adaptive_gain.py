@@ -54,10 +54,10 @@ class State(NamedTuple):
 class AdaptiveGain(NamedTuple):
     """Complementary filter on the rate: the gain falls back to a preset constant where the object accelerates."""
 
-    k_rest: Annotated[float, "1/s", "correction gain without motion acceleration"] = 0.15
+    k_rest: Annotated[float, "1/s", "correction gain without motion acceleration"] = 0.2
     k_fast: Annotated[float, "1/s", "preset gain where the motion acceleration exceeds the threshold"] = 0.001
-    threshold: Annotated[float, "m/s²", "motion acceleration above which k_fast holds"] = 5.0
-    gain: Annotated[Literal["linear", "gaussian"], "choice", "how the gain goes from k_rest to k_fast"] = "gaussian"
+    threshold: Annotated[float, "m/s²", "motion acceleration above which k_fast holds"] = 5.5
+    gain: Annotated[Literal["linear", "gaussian"], "choice", "how the gain goes from k_rest to k_fast"] = "linear"
     gain_width: Annotated[float, "m/s²", "width of the gaussian gain"] = 6.0
     rest_sensors: Annotated[
         Literal["acc", "gyr", "mag", "acc+gyr", "acc+mag", "gyr+mag", "acc+gyr+mag"],
@@ -81,13 +81,13 @@ class AdaptiveGain(NamedTuple):
     check_window: Annotated[int, "samples", "how far back µ and s reach", (1, inf)] = 10000
     check_min_count: Annotated[int, "samples", "how many deviations must be known before any is judged"] = 100
     check_floor: Annotated[float, "rad/s, rad²/s² or rad", "smallest s that is believed"] = 0.001
-    k_forced: Annotated[float, "1/s", "preset gain where the deviation stands out"] = 0.025
+    k_forced: Annotated[float, "1/s", "preset gain where the deviation stands out"] = 0.03
     declination: Annotated[float, "rad", "true heading = magnetic heading + D, east positive", (-pi, pi)] = 0.0
 
     @classmethod
     def as_printed(cls) -> Self:
         """The print's choices: the linear gain of claim 6, the absolute check of claim 8 on claim 11's first measure."""
-        return cls(gain="linear")
+        return cls(gain="linear", deviation="rate-norm", check="absolute")
 
     def start(self, sample: Sample, bias: Vec3) -> State:
         attitude = attitude_of(sample.acc, sample.mag, self.declination)

@@ -29,10 +29,11 @@ Floats = NDArray[np.float64]
 
 # Columns of the buffer that the loop reads: time, gyr, acc, mag, acc_age, mag_age.
 _TIME, _GYR, _ACC, _MAG, _ACC_AGE, _MAG_AGE, _WIDTH = 0, 1, 4, 7, 10, 11, 12
+_COLUMNS = ("time", "gyr", "acc", "mag", "acc_age", "mag_age")
 # What the loop remembers beside the method's state: the clock, whether the next row is the first, the quaternion it
 # wrote last, and the turn about up that `reset_heading` asked for.
 _CLOCK, _FIRST, _LAST, _TURN, _ASIDE = 0, 1, 2, 6, 10
-_BLOCK = 500_000  # rows between two reports of progress
+_BLOCK = 2048  # rows of a recording at a time: their buffer stays in the processor's cache
 
 
 @compiled
@@ -57,20 +58,31 @@ def _sample(rows: Floats, i: int, dt: float) -> Sample:
 
 
 @entry
-def _begin(method: Any, rows: Floats, bias: Vec3) -> Any:
+def _pack(
+    rows: Floats, time: Floats, gyr: Floats, acc: Floats, mag: Floats, acc_age: Floats, mag_age: Floats
+) -> None:  # fmt: skip
+    """The columns of *rows* from whole arrays."""
+    for i in range(len(rows)):
+        rows[i, _TIME], rows[i, _ACC_AGE], rows[i, _MAG_AGE] = time[i], acc_age[i], mag_age[i]
+        for k in range(3):
+            rows[i, _GYR + k], rows[i, _ACC + k], rows[i, _MAG + k] = gyr[i, k], acc[i, k], mag[i, k]
+
+
+@entry
+def _begin(method: Any, rows: Floats, bias: Vec3, aside: Floats) -> Any:
     """A method's memory, started from the first row."""
-    return Memory(method, start(method, _sample(rows, 0, 0.0), bias))
+    return Memory(method, start(method, _sample(rows, 0, 0.0), bias), aside)
 
 
 @entry
-def _begin_at(method: Any, attitude: Quat, declination: float, bias: Vec3) -> Any:
+def _begin_at(method: Any, attitude: Quat, declination: float, bias: Vec3, aside: Floats) -> Any:
     """A method's memory, started at an attitude."""
-    return Memory(method, start(method, resting_sample(attitude, declination), bias))
+    return Memory(method, start(method, resting_sample(attitude, declination), bias), aside)
 
 
 @entry
-def _recall(method: Any, state: Any) -> Any:
-    return Memory(method, state)
+def _recall(method: Any, state: Any, aside: Floats) -> Any:
+    return Memory(method, state, aside)
 
 
 @entry
@@ -79,9 +91,9 @@ def _state_of(memory: Any) -> Any:
 
 
 @entry
-def advance(memory: Any, aside: Floats, rows: Floats, table: Floats, flags: NDArray[np.uint32]) -> None:
+def advance(memory: Any, rows: Floats, table: Floats, flags: NDArray[np.uint32]) -> None:
     """Step the method in *memory* over *rows* and write what it says into *table* and *flags*."""
-    method, state = memory.method, memory.state
+    method, state, aside = memory.method, memory.state, memory.aside
     clock, first = float(aside[_CLOCK]), aside[_FIRST] != 0.0  # float(): plain Python must not meet numpy's scalars
     last, turn = _quaternion(aside, _LAST), _quaternion(aside, _TURN)
     for i in range(len(rows)):
@@ -158,29 +170,36 @@ class Stream:
         if np.ndim(packet[0]) == 0:
             return self.update(Packet(float(packet[0]), *packet[1:]))  # type: ignore[arg-type]
         many = samples(*packet)
-        return self._advance(self._rows(**many), many["time"])
+        rows = np.zeros((len(many["time"]), _WIDTH))
+        rows[:, _TIME] = many["time"]
+        rows[:, _GYR:_ACC], rows[:, _ACC:_MAG], rows[:, _MAG:_ACC_AGE] = many["gyr"], many["acc"], many["mag"]
+        self._see_mag(rows)
+        return self._advance(rows, many["time"])
 
     def _advance(self, rows: Floats, time: Floats) -> Attitude:
         n = len(time)
         table = np.empty((n, COLUMNS))
         flags = np.empty(n, np.uint32)
         if n:
-            if self._memory is None:
-                self._begin(rows)
-                advance(self._memory, self._aside, rows, table, flags)
-                self._run = direct(advance, self._memory, self._aside, rows, table, flags)
-            else:
-                self._run(self._memory, self._aside, rows, table, flags)
+            self._advance_into(rows, table, flags)
         attitude = Attitude.view(time, table, flags, self._heading, self._provenance)
         if n:
             self._latest = attitude
         return attitude
 
+    def _advance_into(self, rows: Floats, table: Floats, flags: NDArray[np.uint32]) -> None:
+        if self._run is not None:
+            self._run(self._memory, rows, table, flags)
+        else:
+            self._begin(rows)
+            advance(self._memory, rows, table, flags)
+            self._run = direct(advance, self._memory, rows, table, flags)
+
     def _begin(self, rows: Floats) -> None:
         if self._start is None:
-            self._memory = _begin(self._running, rows, self._bias)
+            self._memory = _begin(self._running, rows, self._bias, self._aside)
         else:
-            self._memory = _begin_at(self._running, self._start, self._declination, self._bias)
+            self._memory = _begin_at(self._running, self._start, self._declination, self._bias, self._aside)
             self._aside[_LAST : _LAST + 4] = self._start
 
     def check(self, now: float) -> Attitude:
@@ -254,14 +273,15 @@ class Stream:
                 f"the saved stream ran {identity}, this one runs {self._identity()}; "
                 "restore it into a Stream with the same method and parameters"
             )
-        if flat is None:
-            self._memory = None
-        else:
-            template = _begin(self._running, np.full((1, _WIDTH), nan), self._bias)
-            self._memory = _recall(self._running, _filled(_state_of(template), flat))
+        self._memory = self._run = None
+        if flat is not None:
+            template = _begin(self._running, np.full((1, _WIDTH), nan), self._bias, aside)
+            self._memory = _recall(self._running, _filled(_state_of(template), flat), aside)
             empty = np.empty((0, _WIDTH)), np.empty((0, COLUMNS)), np.empty(0, np.uint32)
-            advance(self._memory, aside.copy(), *empty)
-            self._run = direct(advance, self._memory, aside, *empty)
+            first = aside[_FIRST]
+            advance(self._memory, *empty)
+            aside[_FIRST] = first  # no row has been seen yet by calling it
+            self._run = direct(advance, self._memory, *empty)
         self._aside, self._heading, self._reset = aside, heading, reset
         self._latest = None
         if latest is not None:
@@ -292,23 +312,16 @@ class Stream:
                 f"packet of one sample: expected three numbers each for gyr, acc, mag, found {gyr!r}, {acc!r}, {mag!r}"
             ) from None
         self._row[0, _TIME] = time
-        if self._heading == "arbitrary" and mag is not None:
+        if mag is not None and self._heading == "arbitrary":
             self._see_mag(self._row)
         return self._row
 
-    def _rows(self, time: Floats, gyr: Floats, acc: Floats, mag: Floats) -> Floats:
-        rows = np.zeros((len(time), _WIDTH))
-        rows[:, _TIME] = time
-        rows[:, _GYR:_ACC], rows[:, _ACC:_MAG], rows[:, _MAG:_ACC_AGE] = gyr, acc, mag
-        if self._heading == "arbitrary":
-            self._see_mag(rows)
-        return rows
-
     def _see_mag(self, rows: Floats) -> None:
-        """The heading means something as soon as a magnetometer has spoken, until `reset_heading` gives it another zero."""
-        mag = rows[:, _MAG:_ACC_AGE]
-        if self._has_declination and not self._reset and (np.isfinite(mag).all(axis=1) & mag.any(axis=1)).any():
-            self._heading = "true" if self._declination else "magnetic"
+        """The heading means something once a magnetometer has spoken, until `reset_heading` gives it another zero."""
+        if self._heading == "arbitrary" and self._has_declination and not self._reset:
+            mag = rows[:, _MAG:_ACC_AGE]
+            if (np.isfinite(mag).all(axis=1) & mag.any(axis=1)).any():
+                self._heading = "true" if self._declination else "magnetic"
 
 
 def estimate(
@@ -331,20 +344,20 @@ def estimate(
             f"expected a Recording, found {type(recording).__name__}; see poise.read and poise.Recording"
         )
     stream = Stream(method, start, bias=bias, guard=guard, rest_bias=rest_bias)
-    n, blocks = len(recording), []
-    for first in range(0, max(n, 1), _BLOCK):
-        part = recording if n <= _BLOCK else recording[first : first + _BLOCK]
-        rows = stream._rows(part.time, part.gyr, part.acc, part.mag)
-        rows[:, _ACC_AGE], rows[:, _MAG_AGE] = part.acc_age, part.mag_age
-        blocks.append(stream._advance(rows, part.time))
+    n = len(recording)
+    table, flags = np.empty((n, COLUMNS)), np.empty(n, np.uint32)
+    columns = tuple(np.ascontiguousarray(getattr(recording, name)) for name in _COLUMNS)
+    buffer = np.empty((min(_BLOCK, n), _WIDTH))
+    for first in range(0, n, _BLOCK):
+        part = slice(first, min(first + _BLOCK, n))
+        rows = buffer[: part.stop - first]
+        _pack(rows, *(column[part] for column in columns))
+        stream._see_mag(rows)
+        stream._advance_into(rows, table[part], flags[part])
         if progress is not None:
-            progress(min(first + _BLOCK, n))
-    whole = blocks[0]
-    if len(blocks) > 1:
-        table, flags = np.concatenate([b.table for b in blocks]), np.concatenate([b.flags for b in blocks])
-        whole = replace(whole, time=recording.time, table=table, flags=flags)
-    provenance = replace(whole.provenance, source=recording.source, source_hash=recording.source_hash)
-    return replace(whole, heading_reference=stream._heading, provenance=provenance)
+            progress(part.stop)
+    provenance = replace(stream._provenance, source=recording.source, source_hash=recording.source_hash)
+    return Attitude(recording.time, table, flags, stream._heading, "enu", provenance)
 
 
 def _core(method: Any) -> Any:

@@ -287,10 +287,10 @@ if not PLAIN_PYTHON:
 if PLAIN_PYTHON:
 
     class Memory:
-        """A running method: its parameters and its state."""
+        """A running method: its parameters, its state, and what the loop remembers beside it."""
 
-        def __init__(self, method: Any, state: Any) -> None:
-            self.method, self.state = method, state
+        def __init__(self, method: Any, state: Any, aside: Any) -> None:
+            self.method, self.state, self.aside = method, state, aside
 
 else:
 
@@ -299,9 +299,9 @@ else:
         pass
 
     class Memory(structref.StructRefProxy):  # type: ignore[no-redef]
-        """A running method: its parameters and its state."""
+        """A running method: its parameters, its state, and what the loop remembers beside it."""
 
-        def __new__(cls, method: Any, state: Any) -> Any:
-            return structref.StructRefProxy.__new__(cls, method, state)
+        def __new__(cls, method: Any, state: Any, aside: Any) -> Any:
+            return structref.StructRefProxy.__new__(cls, method, state, aside)
 
-    structref.define_proxy(Memory, MemoryType, ["method", "state"])
+    structref.define_proxy(Memory, MemoryType, ["method", "state", "aside"])
