@@ -227,6 +227,7 @@ def adaptive_gain(
     check_min_count: float,
     check_floor: float,
     k_forced: float,
+    gravity: float,
     declination: float,
 ) -> Floats:
     """Quaternions (n, 4)."""
@@ -234,7 +235,7 @@ def adaptive_gain(
     # Open: what "still" is. The rate is small; specific force and field direction are close, axis by axis, to means with
     # a time constant of 0.5 s; all of that for rest_time. A sensor without a sample does not object.
     # Open: how gravity is averaged. Over all rest so far, each sample by its dt.
-    g_ref, rested, still = 9.80665, 0.0, 0.0
+    g_ref, rested, still = gravity, 0.0, 0.0
     f_mean = acc[0]
     m_mean = mag[0] / np.linalg.norm(mag[0]) if known(mag[0]) else np.zeros(3)
     mu, variance, count = 0.0, 0.0, 0

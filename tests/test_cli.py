@@ -95,7 +95,10 @@ def test_evaluate_against_the_file_and_beside_it(folder: Path, capsys: pytest.Ca
     assert run(["estimate", "made.csv", "-o", "est.parquet"]) == 0
     capsys.readouterr()
     assert run(["evaluate", "est.parquet", "--reference", "truth.tum", "--json"]) == 0
-    beside = json.loads(capsys.readouterr().out)["results"][0]["rmse_deg"]
+    told = json.loads(capsys.readouterr().out)["results"][0]
+    beside = told["rmse_deg"]
+    assert told["method"] == "TwoStage"
+    assert told["compared"] + told["missing"] <= told["rows"]
     assert beside["heading"] == pytest.approx(inside["heading"], abs=0.3)
 
 
@@ -137,6 +140,11 @@ def test_sniff_says_what_it_is(folder: Path, capsys: pytest.CaptureFixture[str])
         (["methods", "kalman"], "no method"),
         (["evaluate", "made.csv", "made.csv", "--plot", "a.png"], "one at a time"),
         (["fly"], "fly"),
+        (["estimate", "made.csv", "--remap", "x x z"], "each of x, y, z"),
+        (["estimate", "made.csv", "--units", "foo=s"], "expected one of"),
+        (["estimate", "made.csv", "--rate", "0"], "above 0"),
+        (["estimate", "made.csv", "--delimiter", "xx"], "one character"),
+        (["estimate", "made.csv", "--set", "acc_noise=0"], "acc_noise"),
     ],
 )
 def test_usage_errors_are_one_line_and_code_2(
@@ -191,3 +199,12 @@ def test_real_recordings_with_no_options(
     assert errors[0] < 3.0
     assert results[3]["error_deg"] is None
     assert len(list(tmp_path.glob("*.attitude.parquet"))) == 4
+
+
+def test_time_that_runs_backwards_is_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    made = poise.read(folder / "made.csv")
+    poise.write(made, folder / "forward.csv")
+    lines = (folder / "forward.csv").read_text().splitlines()
+    first = next(i for i, line in enumerate(lines) if not line.startswith("#"))
+    (folder / "made.csv").write_text("\n".join([lines[first], *lines[:first:-1]]) + "\n")
+    refused(capsys, "estimate", "made.csv", code=1, says="backwards")

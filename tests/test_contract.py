@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import os
 import pickle
 import subprocess
@@ -114,7 +115,9 @@ def test_a_saved_stream_belongs_to_its_method_and_parameters(method: Any) -> Non
     other = poise.Stream(
         method._replace(declination=0.1) if "declination" in method._fields else method, rest_bias=False
     )
-    for bytes_ in (saved[: len(saved) // 2], b"", b"[]", b"\xff\x00", b'{"poise": "stream"}'):
+    nested = b"[" * 100_000
+    flipped = saved.replace(b"0.0", b"0.5", 1)
+    for bytes_ in (saved[: len(saved) // 2], b"", b"[]", b"\xff\x00", b'{"poise": "stream"}', nested, flipped):
         with pytest.raises(StateError, match="saved stream"):
             poise.Stream(method).restore(bytes_)
     with pytest.raises(StateError, match="same method and parameters"):
@@ -322,6 +325,28 @@ def test_slower_sensors_are_used_once(method: Any) -> None:
     assert error.rmse_deg().total < 6.0
 
 
+@every_method
+def test_the_heading_says_until_when_it_is_arbitrary(method: Any) -> None:
+    late = made().mag.copy()
+    late[:100] = np.nan
+    attitude = poise.estimate(method, replace(made(), mag=late))
+    told = (attitude.flags & Flag.HEADING_ARBITRARY) != 0
+    assert told[:100].all()
+    if "declination" in method._fields:
+        assert not told[100:].any()
+        assert attitude.flags[100] & Flag.RESET
+    started = poise.estimate(method, replace(made(), mag=None), start=[1.0, 0.0, 0.0, 0.0])
+    assert not (started.flags & (Flag.HEADING_ARBITRARY | Flag.MAG_MISSING)).any()
+
+
+@every_method
+def test_gravity_is_the_recordings(method: Any) -> None:
+    moon = measure(at_rest(random_quats(1, 8)[0], 30.0, RATE), PERFECT, gravity=1.62)
+    wrong = random_quats(1, 9)[0]
+    attitude = poise.estimate(method, moon, start=wrong)
+    assert poise.evaluate(attitude, moon).inclination[-1] < np.radians(1.0)
+
+
 # -- parameters, options, pickles -------------------------------------------------------------------------------------
 
 
@@ -368,6 +393,9 @@ def test_methods_results_and_states_are_picklable(method: Any) -> None:
     stream = poise.Stream(method)
     stream.update(packet(recording, 0, 100))
     assert pickle.loads(pickle.dumps(stream.state)) == stream.state
+    twin = copy.deepcopy(stream)
+    a, b = (s.update(packet(made(), 100, 150)) for s in (stream, twin))
+    assert same_bits(a, b)
 
 
 _PLAIN = """

@@ -182,3 +182,16 @@ def test_what_cannot_be_evaluated_is_refused() -> None:
         evaluate(attitude(FOUND), bare)
     with pytest.raises(RecordingError, match="relative to another body"):
         evaluate(attitude(FOUND).relative_to(attitude(TRUTH)), recording())
+
+
+def test_moving_rows_are_found_by_their_time() -> None:
+    """An attitude on other rows than the recording's is compared where the recording moves."""
+    time = np.arange(0.0, 200.0, 0.1)
+    truth = Attitude.of(time, np.tile([1.0, 0, 0, 0], (len(time), 1)))
+    still = np.zeros((len(time), 3))
+    recording = Recording(time, still, still + np.array([0, 0, 9.8]), truth=truth, moving=(time >= 100) & (time < 120))
+    for rows in (slice(None, None, 2), slice(200, None)):
+        errors = evaluate(truth[rows], recording)
+        counted = errors.time[errors.counted]
+        assert counted.min() == pytest.approx(100.0, abs=0.1)
+        assert counted.max() == pytest.approx(120.0, abs=0.2)

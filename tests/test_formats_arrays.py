@@ -277,7 +277,7 @@ def test_parquet_foreign(tmp_path):
     np.testing.assert_allclose(recording.time, TIME, atol=1e-9)
     np.testing.assert_allclose(recording.gyr, np.deg2rad(GYR), rtol=1e-15)
     assert np.isnan(recording.acc[3]).all() and not recording.has_mag
-    with pytest.raises(FormatError, match=r"50 rows.*--limits rows="):
+    with pytest.raises(FormatError, match=r"50 rows.*Limits\(rows="):
         read(path, limits=Limits(rows=49))
     columns["acc_x (g)"] = pa.array(["1"] * N)
     parquet.write_table(pa.table(columns), path)

@@ -267,7 +267,7 @@ def test_rate_instead_of_stamps(made):
 def test_limits_are_named_and_settable(made):
     path = made(HEADER + ROWS)
     for limit, reason in [("rows", "20 rows"), ("columns", "10 columns"), ("size", "bytes"), ("line", "one line")]:
-        with pytest.raises(FormatError, match=rf"{reason}.*--limits {limit}="):
+        with pytest.raises(FormatError, match=rf"{reason}.*Limits\({limit}="):
             read(path, limits=Limits(**{limit: 9}))
 
 

@@ -28,6 +28,7 @@ _HOME = {
     "estimate": "poise.estimators.engine",
     "evaluate": "poise.evaluation",
     "read": "poise.formats",
+    "read_attitude": "poise.formats",
     "sniff": "poise.formats",
     "write": "poise.formats",
 }
@@ -50,6 +51,7 @@ if TYPE_CHECKING:
     from poise.evaluation import Errors as Errors
     from poise.evaluation import evaluate as evaluate
     from poise.formats import read as read
+    from poise.formats import read_attitude as read_attitude
     from poise.formats import sniff as sniff
     from poise.formats import write as write
 

@@ -92,16 +92,21 @@ def evaluate(attitude: Attitude, recording: Recording | Attitude) -> Errors:
     truth = recording.truth if isinstance(recording, Recording) else recording
     if truth is None:
         raise RecordingError("the recording has no reference to evaluate against; give one with --reference FILE")
-    if "body" in (attitude.frame, truth.frame):
+    if "body" in (getattr(attitude, "frame", ""), truth.frame):
         raise RecordingError("an attitude relative to another body cannot be evaluated against the Earth frame")
+    if not isinstance(attitude, Attitude):
+        raise RecordingError(f"expected an Attitude to evaluate, found {type(attitude).__name__}")
     attitude, truth = attitude.to("enu"), truth.to("enu")
-    if len(truth) != len(attitude) or not np.array_equal(truth.time, attitude.time, equal_nan=True):
+    moving = recording.moving if isinstance(recording, Recording) else None
+    if not _same_rows(truth.time, attitude.time):
+        if moving is not None and isinstance(recording, Recording):
+            moving = moving[_nearest(recording.time, attitude.time)]
         truth = truth.resample(attitude.time)
     error = arrays.multiply(attitude.quat, arrays.conjugate(truth.quat))
     w, x, y, z = np.abs(error.T)
     should = np.isfinite(truth.quat).all(axis=1)
-    if isinstance(recording, Recording) and recording.moving is not None:
-        should &= recording.moving
+    if moving is not None:
+        should &= moving
     known = np.isfinite(error).all(axis=1)
     return Errors(
         time=attitude.time,
@@ -111,3 +116,16 @@ def evaluate(attitude: Attitude, recording: Recording | Attitude) -> Errors:
         counted=np.asarray(should & known),
         missing=int(np.sum(should & ~known)),
     )
+
+
+def _same_rows(a: Floats, b: Floats) -> bool:
+    return len(a) == len(b) and np.array_equal(a, b, equal_nan=True)
+
+
+def _nearest(own: Floats, wanted: Floats) -> NDArray[np.intp]:
+    """The index of the stamp nearest to each wanted time."""
+    order = np.argsort(own)
+    ranked = own[order]
+    after = np.clip(np.searchsorted(ranked, wanted), 1, max(len(own) - 1, 1))
+    nearer = np.where(wanted - ranked[after - 1] <= ranked[after] - wanted, after - 1, after)
+    return np.asarray(order[nearer])

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from poise.data.attitude import Attitude
-from poise.data.flags import INVALID, REST, Flag, valid
+from poise.data.flags import HEADING_ARBITRARY, INVALID, REST, Flag, valid
 from poise.data.recording import Recording
 from poise.errors import FormatError, PoiseError, RecordingError
 from poise.evaluation import Errors, evaluate
@@ -180,7 +180,10 @@ def _draw_flags(figure: Figure, axes: Sequence[Axes], time: Floats, flags: NDArr
     """Shade rest and what is not valid, mark other flags at the foot of each panel; one legend names them."""
     from matplotlib.patches import Patch
 
-    invalid, others = ~valid(flags), flags & np.uint32(0xFFFFFFFF ^ (REST | INVALID))
+    invalid = ~valid(flags)
+    # That a heading is arbitrary stands on its axis; as a flag it only matters where it changes.
+    told = REST | INVALID | (HEADING_ARBITRARY if (flags & np.uint32(HEADING_ARBITRARY)).all() else 0)
+    others = flags & np.uint32(0xFFFFFFFF ^ told)
     kinds = (
         ("at rest", ((flags & np.uint32(REST)) != 0) & ~invalid, _REST_SHADE, 1.0),
         ("not valid", invalid, _INVALID_SHADE, 1.0),

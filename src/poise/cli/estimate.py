@@ -10,11 +10,13 @@ from cyclopts import Parameter
 
 from poise.cli import show
 from poise.cli.options import Reading, Running, UsageError, usage
+from poise.errors import FormatError
 
 if TYPE_CHECKING:
     from poise.data.attitude import Attitude
     from poise.data.recording import Recording
 
+_WORTH_SAYING = 0.9  # a smaller share of valid rows is pointed out
 _WRITABLE = (".parquet", ".csv", ".tum", ".txt")
 
 
@@ -68,12 +70,15 @@ def estimate(
             return _finished(file, recording, attitude.to(frame), targets[file], pictures.get(file), tell)
 
         running.warm()
-        results, code = show.each(files, work)
+        results, refused = show.each(files, work)
     except UsageError as error:
         show.problem(error)
         return 2
-    _report(results, running.method, json)
-    return code
+    if json:
+        show.as_json({"method": running.method, "results": results, "errors": refused})
+    elif results:
+        _report(results, running.method)
+    return 1 if refused else 0
 
 
 def _finished(
@@ -90,7 +95,10 @@ def _finished(
 
     tell("writing", 0.8)
     for place in filter(None, (target, picture)):
-        place.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            place.parent.mkdir(parents=True, exist_ok=True)
+        except (FileExistsError, NotADirectoryError):
+            raise FormatError(f"{place}: cannot be written: {place.parent} is a file, not a folder") from None
     write(attitude, target)
     errors = evaluate(attitude, recording) if recording.truth is not None else None
     if picture:
@@ -113,12 +121,7 @@ def _finished(
     }
 
 
-def _report(results: list[dict[str, Any]], method: str, json: bool) -> None:
-    if json:
-        show.as_json({"method": method, "results": results})
-        return
-    if not results:
-        return
+def _report(results: list[dict[str, Any]], method: str) -> None:
     with_truth = any(result["error_deg"] for result in results)
     columns = ["file", "s", "Hz", "rows", "valid", "heading", "written to"]
     rows = []
@@ -137,6 +140,11 @@ def _report(results: list[dict[str, Any]], method: str, json: bool) -> None:
         rows.append(row)
     show.table(f"{method}: attitudes", columns + ["error °"] * with_truth, rows)
     for result in results:
+        if not result["valid"] >= _WORTH_SAYING:
+            show.note(
+                f"{Path(result['file']).name}: only {result['valid']:.1%} of the rows are valid; "
+                "the flags say why: poise.read_attitude(output).reasons()"
+            )
         for text in result["notes"]:
             show.note(f"{Path(result['file']).name}: {text}")
         if result["plot"]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -13,7 +14,10 @@ from poise.cli.options import Reading, Running, UsageError, usage
 from poise.errors import FormatError, RecordingError
 
 if TYPE_CHECKING:
+    from poise.data.attitude import Attitude
     from poise.data.recording import Recording
+
+_KINDS = ("total", "heading", "inclination")
 
 
 def evaluate(
@@ -56,12 +60,15 @@ def evaluate(
             return _evaluated(file, reference, plot, reading, running, tell)
 
         running.warm()
-        results, code = show.each(files, work)
+        results, refused = show.each(files, work)
     except UsageError as error:
         show.problem(error)
         return 2
-    _report(results, running.method, json)
-    return code
+    if json:
+        show.as_json({"mean_rmse_deg": _mean(results), "results": results, "errors": refused})
+    elif results:
+        _report(results)
+    return 1 if refused else 0
 
 
 def _evaluated(
@@ -76,7 +83,7 @@ def _evaluated(
     from poise.formats import read_attitude
 
     tell("reading", 0.0)
-    truth = None if reference is None else read_attitude(reference)
+    truth = None if reference is None else _reference(reference, reading)
     recording: Recording | None = None
     try:
         recording = reading.read(file)
@@ -88,9 +95,11 @@ def _evaluated(
         if truth is None:
             raise RecordingError("is an attitude; give what to compare it with: --reference FILE") from None
     else:
+        if truth is not None:
+            recording = replace(recording, truth=truth.resample(recording.time))
         tell("estimating (a first run compiles the method)", 0.3)
         attitude = running.estimate(recording)
-    against = truth if truth is not None else recording
+    against = recording if recording is not None else truth
     assert against is not None  # one of the two: an attitude without a reference was refused above
     errors = measure(attitude, against)
     if not errors.counted.any():
@@ -101,33 +110,52 @@ def _evaluated(
         save_figure(attitude_figure(attitude, recording, errors, title=file.stem), plot)
     return {
         "file": str(file),
+        "method": attitude.provenance.method,
         "rmse_deg": errors.rmse_deg()._asdict(),
         "table_deg": errors.table(),
-        "rows": int(errors.counted.sum()),
+        "rows": len(attitude),
+        "compared": int(errors.counted.sum()),
         "missing": errors.missing,
         "diverged": errors.diverged,
     }
 
 
-def _report(results: list[dict[str, Any]], method: str, json: bool) -> None:
-    kinds = ("total", "heading", "inclination")
-    mean = {kind: sum(r["rmse_deg"][kind] for r in results) / len(results) for kind in kinds} if results else {}
-    if json:
-        show.as_json({"method": method, "mean_rmse_deg": mean, "results": results})
-        return
-    if not results:
-        return
+def _reference(path: Path, reading: Reading) -> Attitude:
+    """The attitude in *path*, or the reference in the recording there."""
+    from poise.formats import read_attitude
+
+    try:
+        return read_attitude(path)
+    except FormatError as no_attitude:
+        try:
+            truth = reading.read(path).truth
+        except FormatError:
+            raise no_attitude from None
+        if truth is None:
+            raise FormatError(f"{path}: holds no reference attitude") from None
+        return truth
+
+
+def _mean(results: list[dict[str, Any]]) -> dict[str, float]:
+    return {kind: sum(r["rmse_deg"][kind] for r in results) / len(results) for kind in _KINDS} if results else {}
+
+
+def _report(results: list[dict[str, Any]]) -> None:
     rows = [
         [
             Path(result["file"]).name,
-            *(result["rmse_deg"][kind] for kind in kinds),
+            result["method"],
+            *(result["rmse_deg"][kind] for kind in _KINDS),
             result["table_deg"]["total"]["p95"],
             result["table_deg"]["total"]["max"],
-            result["rows"],
+            f"{result['compared']} of {result['rows']}",
             "yes" if result["diverged"] else "no",
         ]
         for result in results
     ]
-    columns = ["file", *kinds, "total p95", "total max", "rows", "diverged"]
-    footer = ["mean", *mean.values(), "", "", "", ""] if len(results) > 1 else None
-    show.table(f"{method}: RMSE in degrees", columns, rows, footer)
+    columns = ["file", "method", *_KINDS, "total p95", "total max", "rows compared", "diverged"]
+    footer = ["mean", "", *_mean(results).values(), "", "", "", ""] if len(results) > 1 else None
+    show.table("RMSE in degrees", columns, rows, footer)
+    for result in results:
+        if result["missing"]:
+            show.note(f"{Path(result['file']).name}: {result['missing']} rows that should count have no attitude")

@@ -6,7 +6,7 @@ import math
 import threading
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import date as Date
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn
@@ -62,6 +62,8 @@ class Reading:
         return recording.remap(self.remap) if self.remap else recording
 
     def as_arguments(self) -> dict[str, Any]:
+        """Keyword arguments of :func:`poise.read`; :class:`UsageError` where an option cannot be understood."""
+        self._check()
         delimiter = {"tab": "\t", "space": " "}.get(self.delimiter or "", self.delimiter)
         return {
             "columns": self.columns,
@@ -70,6 +72,25 @@ class Reading:
             "decimal": self.decimal,
             "rate": self.rate,
         }
+
+    def _check(self) -> None:
+        from poise.data.axes import rotation_matrix
+        from poise.formats.units import FACTORS
+
+        if self.remap:
+            try:
+                rotation_matrix(self.remap)
+            except PoiseError as error:
+                usage(f"--remap: {error}")
+        for sensor in _pairs(self.units, "--units", "gyr=deg/s,acc=g") or {}:
+            if sensor not in FACTORS:
+                usage(f"--units {sensor}=…: expected one of {', '.join(FACTORS)}")
+        if self.rate is not None and not 0.0 < self.rate < math.inf:
+            usage(f"--rate {self.rate}: expected samples per second above 0")
+        if self.delimiter is not None and self.delimiter not in ("tab", "space") and len(self.delimiter) != 1:
+            usage(f"--delimiter {self.delimiter!r}: expected one character, tab or space")
+        if self.decimal not in (None, ".", ","):
+            usage(f"--decimal {self.decimal!r}: expected . or ,")
 
 
 @Parameter(name="*", group=METHOD)
@@ -130,7 +151,11 @@ class Running:
     ) -> Attitude:
         from poise.estimators.engine import estimate
 
-        return estimate(self.build(), recording, start, rest_bias=self.rest_bias, progress=progress)
+        attitude = estimate(self.build(), recording, start, rest_bias=self.rest_bias, progress=progress)
+        told = self.declination is not None or self.place is not None
+        if told and attitude.heading_reference == "magnetic":  # a declination of zero is a declination
+            attitude = replace(attitude, heading_reference="true")
+        return attitude
 
     def warm(self) -> None:
         """Load (or, the first time, compile) the method in the background, while a file is read."""

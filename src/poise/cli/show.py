@@ -77,11 +77,14 @@ def waiting(files: Sequence[Path]) -> Iterator[Callable[[Path, str, float], None
         bar.stop()
 
 
-def each(files: Sequence[Path], work: Callable[[Path, Callable[[str, float], None]], Any]) -> tuple[list[Any], int]:
-    """What *work* made of every file that could be used, and the exit code: 1 if one could not."""
+def each(
+    files: Sequence[Path], work: Callable[[Path, Callable[[str, float], None]], Any]
+) -> tuple[list[Any], list[dict[str, str]]]:
+    """What *work* made of every file that could be used, and what was wrong with the others."""
     from poise.cli.options import UsageError
 
-    results, code = [], 0
+    results: list[Any] = []
+    refused: list[dict[str, str]] = []
     with waiting(files) as tell:
         for file in files:
             try:
@@ -89,10 +92,10 @@ def each(files: Sequence[Path], work: Callable[[Path, Callable[[str, float], Non
             except UsageError:
                 raise
             except (PoiseError, OSError) as error:
-                code = 1
                 text = str(error)
+                refused.append({"file": str(file), "error": text})
                 problem(text if file.name in text else f"{file}: {text}")
-    return results, code
+    return results, refused
 
 
 def _text(cell: Any) -> str:

@@ -39,16 +39,16 @@ def sniff(
 
     try:
         reading.as_arguments()
-        results, code = show.each(files, work)
+        results, refused = show.each(files, work)
     except UsageError as error:
         show.problem(error)
         return 2
     if json:
-        show.as_json(results)
+        show.as_json({"results": results, "errors": refused})
     else:
         for result in results:
             _tell(result)
-    return code
+    return 1 if refused else 0
 
 
 def _tell(result: dict[str, Any]) -> None:

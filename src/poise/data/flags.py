@@ -23,6 +23,7 @@ class Flag(IntFlag):
     REST = 1 << 9
     ACC_DOUBTED = 1 << 10
     CORRECTION_FORCED = 1 << 11
+    HEADING_ARBITRARY = 1 << 12
 
 
 SENTENCES: dict[Flag, str] = {
@@ -37,6 +38,7 @@ SENTENCES: dict[Flag, str] = {
     Flag.SILENT: "no sample has arrived in time: the attitude now is unknown",
     Flag.REST: "at rest: the gyroscope's bias is being measured",
     Flag.ACC_DOUBTED: "specific force far from gravity: the accelerometer counts less",
+    Flag.HEADING_ARBITRARY: "no magnetometer sample so far: the heading counts from where it started",
     Flag.CORRECTION_FORCED: "the correction stood out from its history: the preset gain was forced",
 }
 
@@ -56,6 +58,7 @@ SILENT = int(Flag.SILENT)
 REST = int(Flag.REST)
 ACC_DOUBTED = int(Flag.ACC_DOUBTED)
 CORRECTION_FORCED = int(Flag.CORRECTION_FORCED)
+HEADING_ARBITRARY = int(Flag.HEADING_ARBITRARY)
 
 
 def valid(flags: NDArray[np.uint32]) -> NDArray[np.bool_]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ Floats = NDArray[np.float64]
 
 STANDARD_GRAVITY = 9.80665
 _SLOWEST = 0.5  # s: no gyroscope is read less often; a larger median step means stamps in another unit
+_EARLIEST = 0.5  # s before the first gyroscope instant: an older sample says nothing of it
 _UNITS_OF_TIME = ((1e-3, "milliseconds", 1e3), (1e-6, "microseconds", 1e6), (1e-9, "nanoseconds", 1e9))
 
 
@@ -67,8 +68,8 @@ class Recording:
             raise RecordingError(f"truth: expected an Attitude (see Attitude.of), found {type(self.truth).__name__}")
         if self.truth is not None and len(self.truth) != n:
             raise RecordingError(f"truth: expected {n} rows like time, found {len(self.truth)}")
-        if not 1.0 < self.gravity < 30.0:
-            raise RecordingError(f"gravity: expected about 9.8 m/s², found {self.gravity}")
+        if not isinstance(self.gravity, (int, float)) or not 0.1 < self.gravity < 100.0:
+            raise RecordingError(f"gravity: expected m/s², about 9.8 on Earth, found {self.gravity!r}")
         for name, value in values.items():
             object.__setattr__(self, name, value)
         _check_unit_of_time(values["time"])
@@ -91,7 +92,7 @@ class Recording:
         mag: tuple[ArrayLike, ArrayLike] | None = None,
         **facts: Any,
     ) -> Recording:
-        """A recording from sensors with clocks of their own, each given as (time (n,), values (n, 3)).
+        """A recording from sensors with stamps of their own, each given as (time (n,), values (n, 3)).
 
         Every sample goes, exactly once, to the first gyroscope instant at or after its stamp, and its age is kept.
         Several that meet in one row are averaged, values and ages alike; what comes after the last row is left out.
@@ -114,8 +115,12 @@ class Recording:
             rows = np.atleast_1d(rows)
         cut = {name: getattr(self, name)[rows] for name in ("time", "gyr", "acc", "mag", "acc_age", "mag_age")}
         cut |= {name: getattr(self, name)[rows] for name in ("truth", "moving") if getattr(self, name) is not None}
-        part = copy(self)  # not `replace`: a few rows may lie further apart than any gyroscope's
-        part.__dict__.update(cut)
+        return self._with(**cut)
+
+    def _with(self, **values: Any) -> Recording:
+        """A copy with other, already checked values: a few rows may lie further apart than any gyroscope's."""
+        part = copy(self)
+        part.__dict__.update(values)
         return part
 
     def between(self, start: float, end: float) -> Recording:
@@ -138,7 +143,7 @@ class Recording:
             truth = replace(truth, table=table)
         with np.errstate(invalid="ignore"):  # infinite samples become NaN, as absent as they were
             turned = {name: getattr(self, name) @ turn.T for name in ("gyr", "acc", "mag")}
-        return replace(self, **turned, truth=truth)
+        return self._with(**turned, truth=truth)
 
     @property
     def rate_hz(self) -> float:
@@ -165,9 +170,6 @@ class Recording:
             f"Recording({self.name or 'unnamed'}: {len(self)} rows, {self.duration:.1f} s at {self.rate_hz:.1f} Hz, "
             f"{' '.join(sensors)}{reference})"
         )
-
-
-FIELDS = tuple(field.name for field in fields(Recording))
 
 
 def samples(time: Any, gyr: Any, acc: Any, mag: Any) -> dict[str, Floats]:
@@ -215,6 +217,8 @@ def _rows(name: str, values: Any, shape: tuple[int, ...], absent: float) -> Floa
 
 def _check_unit_of_time(time: Floats) -> None:
     steps = np.diff(time)
+    if np.sum(steps < 0) > max(2, 0.5 * len(steps)):
+        raise RecordingError(f"time: {np.sum(steps < 0)} of {len(steps)} steps go backwards; reverse the rows")
     steps = steps[np.isfinite(steps) & (steps > 0)]
     if len(steps) < 2 or (step := float(np.median(steps))) <= _SLOWEST:
         return
@@ -232,7 +236,12 @@ def _place(name: str, rows: Floats, time: ArrayLike, values: ArrayLike) -> tuple
     given = _rows(name, values, (len(stamps), 3), np.nan)
     usable = np.isfinite(stamps) & np.isfinite(given).all(axis=1)
     row = np.searchsorted(rows, stamps, side="left")
-    usable &= row < len(rows)
+    usable &= (row < len(rows)) & (stamps >= (rows[0] if len(rows) else 0.0) - _EARLIEST)
+    if len(stamps) and len(rows) and usable.sum() < 0.05 * len(stamps):
+        raise RecordingError(
+            f"{name} time: only {usable.sum()} of {len(stamps)} samples fall to the gyroscope's {rows[0]:g} to {rows[-1]:g} s "
+            f"(theirs run from {np.nanmin(stamps):g} to {np.nanmax(stamps):g} s); are both clocks and units the same?"
+        )
     row, stamps, given = row[usable], stamps[usable], given[usable]
     count = np.bincount(row, minlength=len(rows)).astype(float)
     with np.errstate(invalid="ignore"):

@@ -56,9 +56,9 @@ class AdaptiveGain(NamedTuple):
 
     k_rest: Annotated[float, "1/s", "correction gain without motion acceleration"] = 0.2
     k_fast: Annotated[float, "1/s", "preset gain where the motion acceleration exceeds the threshold"] = 0.001
-    threshold: Annotated[float, "m/s²", "motion acceleration above which k_fast holds"] = 5.5
+    threshold: Annotated[float, "m/s²", "motion acceleration above which k_fast holds", (1e-6, 1e6)] = 5.5
     gain: Annotated[Literal["linear", "gaussian"], "choice", "how the gain goes from k_rest to k_fast"] = "linear"
-    gain_width: Annotated[float, "m/s²", "width of the gaussian gain"] = 6.0
+    gain_width: Annotated[float, "m/s²", "width of the gaussian gain", (1e-6, 1e6)] = 6.0
     rest_sensors: Annotated[
         Literal["acc", "gyr", "mag", "acc+gyr", "acc+mag", "gyr+mag", "acc+gyr+mag"],
         "choice",
@@ -82,6 +82,7 @@ class AdaptiveGain(NamedTuple):
     check_min_count: Annotated[int, "samples", "how many deviations must be known before any is judged"] = 100
     check_floor: Annotated[float, "rad/s, rad²/s² or rad", "smallest s that is believed"] = 0.001
     k_forced: Annotated[float, "1/s", "preset gain where the deviation stands out"] = 0.03
+    gravity: Annotated[float, "m/s²", "length of gravity before any rest has measured it", (0.1, 100.0)] = 9.80665
     declination: Annotated[float, "rad", "true heading = magnetic heading + D, east positive", (-pi, pi)] = 0.0
 
     @classmethod
@@ -92,7 +93,7 @@ class AdaptiveGain(NamedTuple):
     def start(self, sample: Sample, bias: Vec3) -> State:
         attitude = attitude_of(sample.acc, sample.mag, self.declination)
         mean_mag = unit(sample.mag) if present(sample.mag) else ABSENT
-        return State(attitude, bias, 9.80665, 0.0, sample.acc, mean_mag, 0.0, 0.0, 0.0, 0, False)
+        return State(attitude, bias, self.gravity, 0.0, sample.acc, mean_mag, 0.0, 0.0, 0.0, 0, False)
 
     def step(self, state: State, sample: Sample) -> State:
         q, T, f, m = state.attitude, sample.dt, sample.acc, sample.mag

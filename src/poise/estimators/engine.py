@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -14,14 +15,14 @@ from numpy.typing import ArrayLike, NDArray
 from poise.data.attitude import COLUMNS, QUAT, Attitude, HeadingReference, Provenance
 from poise.data.flags import LOST, SILENT
 from poise.data.packet import Packet, Sample
-from poise.data.recording import Recording, samples
+from poise.data.recording import STANDARD_GRAVITY, Recording, samples
 from poise.errors import MethodError, RecordingError, StateError
 from poise.estimators.guard import Guard
 from poise.estimators.parameters import as_dict, prepared
 from poise.estimators.protocol import output, resting_sample, start, step
 from poise.estimators.rest_bias import RestBias
 from poise.math import arrays
-from poise.math.compiled import Memory, compiled, direct, entry
+from poise.math.compiled import CompileError, Memory, compiled, direct, entry
 from poise.math.quaternions import Quat, inner
 from poise.math.vectors import Vec3
 
@@ -144,7 +145,10 @@ class Stream:
         silence: float = 0.05,
     ) -> None:
         self.method = method
+        self._made_of = (method, start, tuple(_three("bias", bias)), guard, rest_bias, silence)
         self._running = prepared(_wrapped(method, guard, rest_bias))
+        if not isinstance(silence, (int, float)) or not silence >= 0.0:
+            raise MethodError(f"silence: expected seconds, found {silence!r}")
         self._declination = float(getattr(_core(method), "declination", 0.0))
         self._provenance = Provenance(_name(method), as_dict(self._running))
         self._start = None if start is None else _start_quat(start)
@@ -157,7 +161,7 @@ class Stream:
         self._row = np.zeros((1, _WIDTH))
         self._gyr, self._acc, self._mag = self._row[0, _GYR:_ACC], self._row[0, _ACC:_MAG], self._row[0, _MAG:_ACC_AGE]
         self._aside = np.array([nan, 1.0, 1.0, 0, 0, 0, 1.0, 0, 0, 0])
-        self._heading: HeadingReference = "arbitrary"
+        self._heading: HeadingReference = start.heading_reference if isinstance(start, Attitude) else "arbitrary"
         self._latest: Attitude | None = None
         self._space: Iterator[Any] = iter(())
 
@@ -166,6 +170,8 @@ class Stream:
 
         Raises :class:`RecordingError` for a packet whose shapes do not fit; the stream goes on as if it had not come.
         """
+        if not isinstance(packet, tuple) or len(packet) != 4:
+            raise RecordingError(f"expected a Packet(time, gyr, acc, mag), found {packet!r}")
         if isinstance(packet[0], float):
             self._fill_row(packet)
             space = next(self._space, None)
@@ -180,8 +186,8 @@ class Stream:
                 self._advance_into(self._row, table, flags)
             self._latest = attitude = Attitude.view(time, table, flags, self._heading, self._provenance)
             return attitude
-        if np.ndim(packet[0]) == 0:
-            return self.update(Packet(float(packet[0]), *packet[1:]))  # type: ignore[arg-type]
+        if isinstance(packet[0], (int, np.number)):
+            return self.update(Packet(float(packet[0]), *packet[1:]))
         many = samples(*packet)
         rows = np.zeros((len(many["time"]), _WIDTH))
         rows[:, _TIME] = many["time"]
@@ -204,8 +210,14 @@ class Stream:
         if self._run is not None:
             self._run(self._memory, rows, table, flags)
         else:
-            self._begin(rows)
-            advance(self._memory, rows, table, flags)
+            try:
+                self._begin(rows)
+                advance(self._memory, rows, table, flags)
+            except CompileError as problem:
+                raise MethodError(
+                    f"{_name(self.method)} does not compile: {_reason(problem)}; "
+                    "run it with NUMBA_DISABLE_JIT=1 to see where in plain Python"
+                ) from problem
             self._run = direct(advance, self._memory, rows, table, flags)
 
     def _begin(self, rows: Floats) -> None:
@@ -225,6 +237,8 @@ class Stream:
             row = Attitude.of([now], np.full((1, 4), nan))
             row.flags[:] |= np.uint32(SILENT)
             return row
+        if not isinstance(now, (int, float)):
+            raise RecordingError(f"now: expected seconds on the packets' clock, found {now!r}")
         row = self._latest[-1:]
         flags = row.flags.copy()
         if not now - self._aside[_CLOCK] <= self._silence:
@@ -251,62 +265,64 @@ class Stream:
         return None if self._memory is None else _copied(_state_of(self._memory))
 
     def save(self) -> bytes:
-        """Everything needed to go on in another process: JSON text, no pickle. See :meth:`restore`."""
-        return json.dumps(
-            {
-                "poise": "stream",
-                "method": self._identity(),
-                "state": _flat(self.state),
-                "aside": self._aside.tolist(),
-                "heading_reference": self._heading,
-                "heading_reset": self._reset,
-                "latest": None if self._latest is None else self._latest.table[-1].tolist(),
-                "latest_flags": None if self._latest is None else int(self._latest.flags[-1]),
-            }
-        ).encode()
+        """Everything needed to go on in another process: JSON text with a checksum, no pickle. See :meth:`restore`."""
+        latest = self._latest
+        kept = {
+            "method": self._identity(),
+            "state": _flat(self.state),
+            "aside": self._aside.tolist(),
+            "heading_reference": self._heading,
+            "heading_reset": self._reset,
+            "latest": None if latest is None else [latest.table[-1].tolist(), int(latest.flags[-1])],
+        }
+        text = json.dumps(kept)
+        return json.dumps({"poise": "stream", "sha256": _digest(text), "stream": text}).encode()
 
     def restore(self, saved: bytes) -> Self:
         """Go on where :meth:`save` was called, bit for bit; returns the stream.
 
-        Raises :class:`StateError` where *saved* is not a stream's state, or that of another method or parameter set.
+        Raises :class:`StateError` where *saved* is not a stream's state, is damaged, or is that of another method or
+        parameter set; the stream is then what it was.
         """
+        kept = _unsealed(saved)
         try:
-            kept = json.loads(saved)
-            if kept["poise"] != "stream":
-                raise KeyError("poise")
-            identity, flat, aside = kept["method"], kept["state"], np.array(kept["aside"], float)
-            heading, reset = kept["heading_reference"], bool(kept["heading_reset"])
-            latest, latest_flags = kept["latest"], kept["latest_flags"]
-            if aside.shape != (_ASIDE,) or heading not in ("true", "magnetic", "arbitrary"):
-                raise ValueError
-        except (ValueError, KeyError, TypeError) as problem:
+            aside, heading, latest = np.array(kept["aside"], float), kept["heading_reference"], kept["latest"]
+            turn = aside[_TURN : _TURN + 4]
+            if aside.shape != (_ASIDE,) or not abs(np.linalg.norm(turn) - 1.0) < 1e-6:
+                raise ValueError("aside")
+            if heading not in ("true", "magnetic", "arbitrary"):
+                raise ValueError("heading_reference")
+            row = None
+            if latest is not None:
+                table = np.array([latest[0]], float)
+                if table.shape != (1, COLUMNS):
+                    raise ValueError("latest")
+                flags = np.array([latest[1]], np.uint32)
+                row = Attitude(aside[[_CLOCK]], table, flags, heading, "enu", self._provenance)
+            identity, flat, reset = kept["method"], kept["state"], bool(kept["heading_reset"])
+        except (ValueError, KeyError, TypeError, IndexError, OverflowError) as problem:
             raise StateError(f"not a saved stream: {problem!r}; give the bytes that Stream.save() returned") from None
         if identity != self._identity():
             raise StateError(
                 f"the saved stream ran {identity}, this one runs {self._identity()}; "
                 "restore it into a Stream with the same method and parameters"
             )
-        self._memory = self._run = None
+        memory = run = None
         if flat is not None:
             template = _begin(self._running, np.full((1, _WIDTH), nan), self._bias, aside)
-            self._memory = _recall(self._running, _filled(_state_of(template), flat), aside)
+            memory = _recall(self._running, _filled(_state_of(template), flat), aside)
             empty = np.empty((0, _WIDTH)), np.empty((0, COLUMNS)), np.empty(0, np.uint32)
             first = aside[_FIRST]
-            advance(self._memory, *empty)
-            aside[_FIRST] = first  # no row has been seen yet by calling it
-            self._run = direct(advance, self._memory, *empty)
-        self._aside, self._heading, self._reset = aside, heading, reset
-        self._latest = None
-        if latest is not None:
-            self._latest = Attitude(
-                aside[[_CLOCK]],
-                np.array([latest]),
-                np.array([latest_flags], np.uint32),
-                heading,
-                "enu",
-                self._provenance,
-            )
+            advance(memory, *empty)
+            aside[_FIRST] = first  # no row has been seen by that
+            run = direct(advance, memory, *empty)
+        self._memory, self._run, self._aside = memory, run, aside
+        self._heading, self._reset, self._latest = heading, reset, row
         return self
+
+    def __reduce__(self) -> Any:
+        """Copies and pickles are streams of their own, at the same place."""
+        return _revived, (*self._made_of, self.save())
 
     def _identity(self) -> str:
         return f"{type(self._running).__name__}{json.dumps(as_dict(self._running), default=repr)}"
@@ -355,7 +371,7 @@ def estimate(
         raise RecordingError(
             f"expected a Recording, found {type(recording).__name__}; see poise.read and poise.Recording"
         )
-    stream = Stream(method, start, bias=bias, guard=guard, rest_bias=rest_bias)
+    stream = Stream(_at_gravity(method, recording.gravity), start, bias=bias, guard=guard, rest_bias=rest_bias)
     n = len(recording)
     table, flags = np.empty((n, COLUMNS)), np.empty(n, np.uint32)
     columns = tuple(np.ascontiguousarray(getattr(recording, name)) for name in _COLUMNS)
@@ -369,7 +385,29 @@ def estimate(
         if progress is not None:
             progress(part.stop)
     provenance = replace(stream._provenance, source=recording.source, source_hash=recording.source_hash)
-    return Attitude(recording.time, table, flags, stream._heading, "enu", provenance)
+    return Attitude(recording.time.copy(), table, flags, stream._heading, "enu", provenance)
+
+
+def _revived(method: Any, start: Any, bias: Any, guard: bool, rest_bias: bool, silence: float, saved: bytes) -> Stream:
+    return Stream(method, start, bias=bias, guard=guard, rest_bias=rest_bias, silence=silence).restore(saved)
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _unsealed(saved: bytes) -> dict[str, Any]:
+    """What :meth:`Stream.save` put into *saved*, which must be whole."""
+    try:
+        sealed = json.loads(saved)
+        if sealed["poise"] != "stream" or sealed["sha256"] != _digest(sealed["stream"]):
+            raise ValueError("damaged")
+        kept = json.loads(sealed["stream"])
+        if not isinstance(kept, dict):
+            raise TypeError("stream")
+        return kept
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as problem:
+        raise StateError(f"not a saved stream: {problem!r}; give the bytes that Stream.save() returned") from None
 
 
 def _space() -> Iterator[tuple[Floats, Floats, NDArray[np.uint32]]]:
@@ -391,7 +429,25 @@ def _wrapped(method: Any, guard: bool, rest_bias: bool) -> Any:
         return method
     if rest_bias and not isinstance(method, RestBias) and not getattr(method, "learns_bias", False):
         method = RestBias(method)
-    return Guard(method, declination=float(getattr(_core(method), "declination", 0.0))) if guard else method
+    if not guard:
+        return method
+    facts: dict[str, Any] = {
+        name: float(getattr(_core(method), name)) for name in ("declination", "gravity") if hasattr(_core(method), name)
+    }
+    return Guard(method, **facts)
+
+
+def _at_gravity(method: Any, gravity: float) -> Any:
+    """*method* with the recording's gravity, where it has one and was left at the usual."""
+    if gravity == STANDARD_GRAVITY or isinstance(method, (Guard, RestBias)):
+        return method
+    return method._replace(gravity=gravity) if getattr(method, "gravity", None) == STANDARD_GRAVITY else method
+
+
+def _reason(problem: Exception) -> str:
+    """The line of a compiler's report that says what is wrong."""
+    lines = [line.strip() for line in str(problem).splitlines() if line.strip()]
+    return next((line for line in lines if not line.startswith(("Failed", "During", "File"))), lines[0])
 
 
 def _name(method: Any) -> str:
@@ -399,7 +455,10 @@ def _name(method: Any) -> str:
 
 
 def _three(name: str, values: ArrayLike) -> list[float]:
-    array = np.asarray(values, float)
+    try:
+        array = np.asarray(values, float)
+    except (TypeError, ValueError):
+        array = np.empty(0)
     if array.shape != (3,) or not np.isfinite(array).all():
         raise MethodError(f"{name}: expected three finite numbers, found {values!r}")
     return [float(v) for v in array]
@@ -411,7 +470,10 @@ def _start_quat(start: Attitude | ArrayLike) -> Quat:
         if not len(known):
             raise RecordingError("start: the attitude given has no row that is known")
         start = start.to("enu").quat[known[0]]
-    quat = np.asarray(start, float)
+    try:
+        quat = np.asarray(start, float)
+    except (TypeError, ValueError):
+        quat = np.empty(0)
     length = float(np.linalg.norm(quat)) if quat.shape == (4,) else nan
     if not 0.5 < length < 2.0:
         raise RecordingError(f"start: expected a unit quaternion w x y z (4,), found {start!r}")
@@ -447,5 +509,5 @@ def _filled(template: Any, flat: Any) -> Any:
         if isinstance(flat, (list, str)) or flat is None:
             raise TypeError
         return type(template)(flat)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise StateError("the saved state does not fit this version of the method; start the stream anew") from None

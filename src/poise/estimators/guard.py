@@ -9,6 +9,7 @@ from poise.data.flags import (
     ACC_MISSING,
     GAP,
     GYR_MISSING,
+    HEADING_ARBITRARY,
     INITIALISING,
     LOST,
     MAG_MISSING,
@@ -21,14 +22,15 @@ from poise.math.compiled import compiled
 from poise.math.quaternions import IDENTITY, Quat, rotate, shortest_turn, up_in_body
 from poise.math.vectors import ABSENT, UP, Vec3, dot, norm, present, unit, within
 
-_REST_RATE, _REST_FORCE, _GRAVITY = 0.1, 0.5, 9.80665  # rad/s with any bias, m/s², m/s²
+_REST_RATE, _REST_FORCE = 0.1, 0.05  # rad/s with any bias; share of gravity
 
 
 class State(NamedTuple):
     inner: Any
     gyr: Vec3  # rad/s, the last one that was measured
     started: bool  # an accelerometer sample has given an attitude
-    aligned: bool  # a magnetometer sample has given its heading
+    aligned: bool  # the heading is known: from a magnetometer sample, or given at the start
+    mag_seen: bool  # the magnetometer has spoken
     lost: bool  # the motion was not measured for too long: start anew when it is again
     gyr_absent: float  # s
     acc_absent: float
@@ -48,6 +50,9 @@ class Guard(NamedTuple):
 
     method: Any
     declination: Annotated[float, "rad", "the method's own, so that a restart keeps the heading", (-3.2, 3.2)] = 0.0
+    gravity: Annotated[float, "m/s²", "length of gravity, which a resting accelerometer measures", (0.1, 100.0)] = (
+        9.80665
+    )
     gap: Annotated[float, "s", "a longer step between stamps is flagged"] = 0.2
     longest_loss: Annotated[float, "s", "without rotation for longer, the attitude is unknown"] = 1.0
     acc_loss: Annotated[float, "s", "without accelerometer for longer, samples are flagged"] = 0.5
@@ -73,10 +78,11 @@ class Guard(NamedTuple):
         )
         inner = start(self.method, first, bias)
         aligned = seen and present(clean.mag)
-        return State(inner, gyr, seen, aligned, False, 0.0, 0.0, 0.0, 0.0, 0, 0 if seen else INITIALISING)
+        flags = (0 if seen else INITIALISING) | (0 if aligned else HEADING_ARBITRARY)
+        return State(inner, gyr, seen, aligned, False, False, 0.0, 0.0, 0.0, 0.0, 0, flags)
 
     def step(self, state: State, sample: Sample) -> State:
-        if not sample.dt > 1e-7:  # NaN too; a noise density over no time at all would overflow
+        if not 1e-7 < sample.dt < 1e12:  # NaN too; a noise density over no time at all would overflow
             return _held(self, state)
         clean = _cleaned(self, sample, state.acc_absent, state.mag_absent)
         dt, flags = sample.dt, 0
@@ -88,7 +94,8 @@ class Guard(NamedTuple):
             flags |= GYR_MISSING
         if acc_absent > self.acc_loss:
             flags |= ACC_MISSING
-        if state.aligned and mag_absent > self.mag_loss:
+        mag_seen = state.mag_seen or mag_absent == 0.0
+        if mag_seen and mag_absent > self.mag_loss:
             flags |= MAG_MISSING
         if dt > self.gap:
             flags |= GAP
@@ -101,7 +108,7 @@ class Guard(NamedTuple):
         if state.started and not lost and (state.aligned or not has_mag):
             inner = step(self.method, state.inner, sample)
             astray = 0.0
-            if usable and _at_rest(sample):
+            if usable and _at_rest(sample, self.gravity):
                 along = dot(up_in_body(output(self.method, inner, sample).attitude), sample.acc)
                 # 0.9 < cos²(18.4°): nearer than any astray_angle, and the cosine is left for the rare case
                 if along < 0.0 or along * along < 0.9 * dot(sample.acc, sample.acc):
@@ -109,22 +116,27 @@ class Guard(NamedTuple):
                     astray = state.astray + dt if off else 0.0
             lost = astray > self.astray_time
             if not lost:
+                flags |= 0 if state.aligned else HEADING_ARBITRARY
                 return State(
-                    inner, gyr, True, state.aligned, False, gyr_absent, acc_absent, mag_absent, astray, 0, flags
+                    inner, gyr, True, state.aligned, mag_seen, False,
+                    gyr_absent, acc_absent, mag_absent, astray, 0, flags,
                 )  # fmt: skip
 
         # From here on the method does not step: it waits for samples to start from, or starts.
         before = output(self.method, state.inner, sample)
         if (not state.started or lost) and not usable:
-            flags |= LOST if state.started else INITIALISING
+            flags |= (LOST if state.started else INITIALISING) | (0 if state.aligned else HEADING_ARBITRARY)
             return State(
-                state.inner, gyr, state.started, state.aligned, lost, gyr_absent, acc_absent, mag_absent, 0.0, 0, flags
+                state.inner, gyr, state.started, state.aligned, mag_seen, lost,
+                gyr_absent, acc_absent, mag_absent, 0.0, 0, flags,
             )  # fmt: skip
         if state.started:
             flags |= RESET
             sample = _restart(before.attitude, sample, lost, self.declination)
         inner = start(self.method, sample, before.bias)
-        return State(inner, gyr, True, has_mag, False, gyr_absent, acc_absent, mag_absent, 0.0, 0, flags)
+        aligned = has_mag or (state.started and state.aligned and not state.mag_seen)
+        flags |= 0 if aligned else HEADING_ARBITRARY
+        return State(inner, gyr, True, aligned, mag_seen, False, gyr_absent, acc_absent, mag_absent, 0.0, 0, flags)
 
     def output(self, state: State, sample: Sample) -> Output:
         """What the method says; it sees the rate, not the other sensors, which it had in ``step``."""
@@ -137,13 +149,13 @@ class Guard(NamedTuple):
 def _held(guard: Guard, state: State) -> State:
     """A row without a usable stamp: nothing moves, and too many of them lose the attitude."""
     disorder = state.disorder + 1
-    flags = TIME_DISORDER
+    flags = TIME_DISORDER | (0 if state.aligned else HEADING_ARBITRARY)
     if not state.started:
         flags |= INITIALISING
     elif state.lost or disorder > guard.longest_disorder:
         flags |= LOST
     return State(
-        state.inner, state.gyr, state.started, state.aligned, state.lost,
+        state.inner, state.gyr, state.started, state.aligned, state.mag_seen, state.lost,
         state.gyr_absent, state.acc_absent, state.mag_absent, state.astray, disorder, flags,
     )  # fmt: skip
 
@@ -161,9 +173,9 @@ def _restart(attitude: Quat, sample: Sample, lost: bool, declination: float) -> 
 
 
 @compiled
-def _at_rest(sample: Sample) -> bool:
+def _at_rest(sample: Sample, gravity: float) -> bool:
     """No turning, and the length of gravity: an acceleration could then tilt the specific force by 18° at most."""
-    least, most = _GRAVITY - _REST_FORCE, _GRAVITY + _REST_FORCE
+    least, most = (1.0 - _REST_FORCE) * gravity, (1.0 + _REST_FORCE) * gravity
     return within(sample.gyr, _REST_RATE) and least * least < dot(sample.acc, sample.acc) < most * most
 
 

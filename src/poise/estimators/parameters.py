@@ -39,7 +39,8 @@ def parameters(method_class: type) -> tuple[Parameter, ...]:
     found = []
     for name, hint in get_type_hints(method_class, include_extras=True).items():
         kind, *facts = get_args(hint) if get_origin(hint) is Annotated else (hint,)
-        low, high = next((fact for fact in facts if isinstance(fact, tuple)), (0.0, math.inf))
+        anything = (0.0, math.inf) if facts else (-math.inf, math.inf)  # a plain annotation says nothing of a range
+        low, high = next((fact for fact in facts if isinstance(fact, tuple)), anything)
         unit, meaning = [*(fact for fact in facts if isinstance(fact, str)), "", ""][:2]
         default = getattr(method_class, "_field_defaults", {}).get(name)
         found.append(Parameter(name, kind, default, unit, meaning, low, high))
@@ -85,7 +86,7 @@ def _number(name: str, value: Any, parameter: Parameter) -> float | int:
         expected = "a whole number" if parameter.kind is int else "a number"
         unit = f" ({parameter.unit})" if parameter.unit else ""
         raise MethodError(f"{name}: expected {expected}{unit}, found {value!r}") from None
-    if not parameter.low <= number <= parameter.high:
+    if not (parameter.low <= number <= parameter.high and math.isfinite(number)):
         raise MethodError(f"{name}: expected {parameter.low:g} to {parameter.high:g} {parameter.unit}, found {value!r}")
     return int(number) if parameter.kind is int else number
 

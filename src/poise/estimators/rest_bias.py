@@ -11,6 +11,8 @@ from poise.estimators.protocol import output, start, step, with_sensors
 from poise.math.compiled import compiled
 from poise.math.vectors import ZERO, Vec3, present, within
 
+_FIRST = 0.5  # s of stillness before the mean so far is used, where nothing better is known
+
 
 class State(NamedTuple):
     inner: Any
@@ -68,8 +70,11 @@ class RestBias(NamedTuple):
         if still:
             time += dt
             still_gyr = still_gyr + (dt / time) * (sample.gyr - still_gyr)
-            if time >= self.rest_time or not settled:
+            within_limits = within(still_gyr, self.largest_bias)
+            if within_limits and (time >= self.rest_time or (not settled and time >= _FIRST)):
                 measured = self.noise * self.noise / time + self.floor * self.floor
+                if time < self.rest_time:  # it may yet turn out to be no rest
+                    measured += self.largest_bias * self.largest_bias * (1.0 - time / self.rest_time)
                 weight = prior_variance / (prior_variance + measured)
                 bias = prior + weight * (still_gyr - prior)
                 variance = (1.0 - weight) * prior_variance

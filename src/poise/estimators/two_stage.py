@@ -18,7 +18,7 @@ Departures from the print:
 
 from __future__ import annotations
 
-from math import sqrt
+from math import pi, sqrt
 from typing import Annotated, Literal, NamedTuple, Self
 
 from poise.data.flags import ACC_DOUBTED
@@ -41,11 +41,15 @@ class State(NamedTuple):
 class TwoStage(NamedTuple):
     """Two-stage Kalman filter: the accelerometer corrects the tilt, then the magnetometer the heading."""
 
-    gyr_noise: Annotated[float, "rad/s/√Hz", "gyroscope noise density σ_g, with what scale and misalignment add"] = 0.01
-    acc_noise: Annotated[float, "m/s²/√Hz", "accelerometer noise density σ_a, with the acceleration of motion"] = 1.2
-    mag_noise: Annotated[float, "1/√Hz", "noise density σ_m of the magnetometer's unit vector"] = 0.65
+    gyr_noise: Annotated[
+        float, "rad/s/√Hz", "gyroscope noise σ_g, with what scale and misalignment add", (1e-9, 1e3)
+    ] = 0.01
+    acc_noise: Annotated[float, "m/s²/√Hz", "accelerometer noise σ_a, with the acceleration of motion", (1e-9, 1e6)] = (
+        1.2
+    )
+    mag_noise: Annotated[float, "1/√Hz", "noise σ_m of the magnetometer's unit vector", (1e-9, 1e6)] = 0.65
     motion_factor: Annotated[float, "1", "κ: how the accelerometer's error grows with ||f| − g|/g"] = 0.05
-    gravity: Annotated[float, "m/s²", "length of gravity g"] = 9.80665
+    gravity: Annotated[float, "m/s²", "length of gravity g", (0.1, 100.0)] = 9.80665
     declination: Annotated[float, "rad", "true heading = magnetic heading + D, east positive", (-3.2, 3.2)] = 0.0
     stage1_heading: Annotated[
         Literal["predicted", "measured"], "choice", "whose heading the accelerometer's stage is linearised at"
@@ -114,9 +118,15 @@ class TwoStage(NamedTuple):
         """6. The attitude that steers the device; sigma about the Earth's axes from P."""
         L = turns_about_earth(state.attitude)
         C = transpose(L) @ state.covariance @ L
-        sigma = 2.0 * Vec3(sqrt(max(C.x.x, 0.0)), sqrt(max(C.y.y, 0.0)), sqrt(max(C.z.z, 0.0)))
+        sigma = Vec3(_sigma(C.x.x), _sigma(C.y.y), _sigma(C.z.z))
         flags = ACC_DOUBTED if state.doubt > 1.0 else 0
         return Output(sample.dt, state.attitude, sample.gyr - state.bias, state.bias, sigma, ABSENT, flags)
+
+
+@compiled
+def _sigma(variance: float) -> float:
+    """rad; an angle of which nothing is known is not further off than half a turn."""
+    return min(2.0 * sqrt(max(variance, 0.0)), pi)
 
 
 @compiled

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
+_LONGEST = 200  # rows
 _LEAST = 0.5  # share of rows that must repeat the one before
 
 
@@ -20,8 +21,10 @@ def fresh(rows: Floats) -> tuple[NDArray[np.bool_], int] | None:
     if len(rows) <= 100 or not 3 <= changed.sum() <= (1.0 - _LEAST) * len(rows):
         return None
     starts = np.flatnonzero(changed)
-    usual = int(np.median(np.diff(starts)))
-    if usual < 2:
+    distances = np.diff(starts)
+    usual = int(np.median(distances))
+    # Chance on a coarse grid makes changes at any distance; a held sensor never changes early.
+    if not 2 <= usual <= _LONGEST or np.mean(distances < 0.6 * usual) > 0.05:
         return None
     since = np.arange(len(rows)) - starts[np.cumsum(changed) - 1]
     return since % usual == 0, usual

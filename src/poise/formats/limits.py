@@ -29,7 +29,7 @@ class Limits:
         if found > allowed:
             raise FormatError(
                 f"{where}: {found:,} {_WHAT[limit]}, the limit is {allowed:,}; if the file is in order, "
-                f"raise it with --limits {limit}={found} (Limits({limit}={found}))"
+                f"in Python, read(path, limits=Limits({limit}=…)) raises it"
             )
 
 

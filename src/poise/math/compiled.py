@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import numba
+import numba.core.errors
 from llvmlite import ir
 from numba.core import caching, cgutils, types
 from numba.experimental import structref
@@ -29,6 +30,7 @@ from numba.extending import (
     unbox,
 )
 
+CompileError = numba.core.errors.NumbaError
 F = TypeVar("F", bound=Callable[..., Any])
 
 PLAIN_PYTHON: bool = bool(numba.config.DISABLE_JIT)  # type: ignore[attr-defined]
