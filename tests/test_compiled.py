@@ -129,7 +129,7 @@ import importlib, json, sys
 import numpy as np
 
 import poise
-from poise.estimators.engine import advance
+from poise.estimators.loop import advance
 
 module, wrapped = sys.argv[1], sys.argv[2] == "wrapped"
 method = importlib.import_module(module).Pull(gain=0.5)

@@ -1,8 +1,7 @@
-"""The one loop: `estimate` over a recording and `Stream` over packets run `advance`, and so give the same bits."""
+"""`estimate` over a recording and `Stream` over packets: both run the one loop, and so give the same bits."""
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -13,115 +12,42 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from poise.data.attitude import COLUMNS, QUAT, Attitude, HeadingReference, Provenance
-from poise.data.flags import LOST, SILENT
-from poise.data.packet import Packet, Sample
+from poise.data.flags import SILENT
+from poise.data.packet import Packet
 from poise.data.recording import STANDARD_GRAVITY, Recording, samples
 from poise.errors import MethodError, RecordingError, StateError
 from poise.estimators.guard import Guard
+from poise.estimators.loop import (
+    ACC,
+    ACC_AGE,
+    ASIDE,
+    CLOCK,
+    FIRST,
+    GYR,
+    LAST,
+    MAG,
+    ROW_COLUMNS,
+    TIME,
+    TURN,
+    WIDTH,
+    advance,
+    begin,
+    begin_at,
+    pack,
+    recall,
+    state_of,
+)
 from poise.estimators.parameters import as_dict, prepared
-from poise.estimators.protocol import output, resting_sample, start, step
 from poise.estimators.rest_bias import RestBias
+from poise.estimators.saving import copied, filled, flat, sealed, unsealed
 from poise.math import arrays
-from poise.math.compiled import CompileError, Memory, compiled, direct, entry
-from poise.math.quaternions import Quat, inner
+from poise.math.compiled import CompileError, direct
+from poise.math.quaternions import Quat
 from poise.math.vectors import Vec3
 
 Floats = NDArray[np.float64]
 
-# Columns of the buffer that the loop reads: time, gyr, acc, mag, acc_age, mag_age.
-_TIME, _GYR, _ACC, _MAG, _ACC_AGE, _MAG_AGE, _WIDTH = 0, 1, 4, 7, 10, 11, 12
-_COLUMNS = ("time", "gyr", "acc", "mag", "acc_age", "mag_age")
-# What the loop remembers beside the method's state: the clock, whether the next row is the first, the quaternion it
-# wrote last, and the turn about up that `reset_heading` asked for.
-_CLOCK, _FIRST, _LAST, _TURN, _ASIDE = 0, 1, 2, 6, 10
 _BLOCK = 2048  # rows of a recording at a time: their buffer stays in the processor's cache
-
-
-@compiled
-def _vector(rows: Floats, i: int, column: int) -> Vec3:
-    return Vec3(float(rows[i, column]), float(rows[i, column + 1]), float(rows[i, column + 2]))
-
-
-@compiled
-def _quaternion(aside: Floats, at: int) -> Quat:
-    return Quat(float(aside[at]), float(aside[at + 1]), float(aside[at + 2]), float(aside[at + 3]))
-
-
-@compiled
-def _write(table: Floats, i: int, column: int, v: Vec3) -> None:
-    table[i, column], table[i, column + 1], table[i, column + 2] = v.x, v.y, v.z
-
-
-@compiled
-def _sample(rows: Floats, i: int, dt: float) -> Sample:
-    gyr, acc, mag = _vector(rows, i, _GYR), _vector(rows, i, _ACC), _vector(rows, i, _MAG)
-    return Sample(dt, gyr, acc, mag, float(rows[i, _ACC_AGE]), float(rows[i, _MAG_AGE]), dt, dt)
-
-
-@entry
-def _pack(
-    rows: Floats, time: Floats, gyr: Floats, acc: Floats, mag: Floats, acc_age: Floats, mag_age: Floats
-) -> None:  # fmt: skip
-    """The columns of *rows* from whole arrays."""
-    for i in range(len(rows)):
-        rows[i, _TIME], rows[i, _ACC_AGE], rows[i, _MAG_AGE] = time[i], acc_age[i], mag_age[i]
-        for k in range(3):
-            rows[i, _GYR + k], rows[i, _ACC + k], rows[i, _MAG + k] = gyr[i, k], acc[i, k], mag[i, k]
-
-
-@entry
-def _begin(method: Any, rows: Floats, bias: Vec3, aside: Floats) -> Any:
-    """A method's memory, started from the first row."""
-    return Memory(method, start(method, _sample(rows, 0, 0.0), bias), aside)
-
-
-@entry
-def _begin_at(method: Any, attitude: Quat, declination: float, bias: Vec3, aside: Floats) -> Any:
-    """A method's memory, started at an attitude."""
-    return Memory(method, start(method, resting_sample(attitude, declination), bias), aside)
-
-
-@entry
-def _recall(method: Any, state: Any, aside: Floats) -> Any:
-    return Memory(method, state, aside)
-
-
-@entry
-def _state_of(memory: Any) -> Any:
-    return memory.state
-
-
-@entry
-def advance(memory: Any, rows: Floats, table: Floats, flags: NDArray[np.uint32]) -> None:
-    """Step the method in *memory* over *rows* and write what it says into *table* and *flags*."""
-    method, state, aside = memory.method, memory.state, memory.aside
-    clock, first = float(aside[_CLOCK]), aside[_FIRST] != 0.0  # float(): plain Python must not meet numpy's scalars
-    last, turn = _quaternion(aside, _LAST), _quaternion(aside, _TURN)
-    for i in range(len(rows)):
-        time = float(rows[i, _TIME])
-        sample = _sample(rows, i, 0.0 if first else time - clock)
-        if not first:
-            state = step(method, state, sample)
-        first = False
-        if isfinite(time):
-            clock = time
-        out = output(method, state, sample)
-        q = out.attitude
-        if turn.z != 0.0:
-            q = turn * q
-        if inner(q, last) < 0.0:  # q and −q are one attitude: stay on the side we were
-            q = -q
-        if isfinite(q.w):
-            last = q
-        table[i, 0], table[i, 1], table[i, 2], table[i, 3] = q.w, q.x, q.y, q.z
-        _write(table, i, 4, out.rate)
-        _write(table, i, 7, out.bias)
-        _write(table, i, 10, out.sigma)
-        _write(table, i, 13, out.bias_sigma)
-        flags[i] = out.flags if isfinite(q.w) else out.flags | LOST
-    memory.state = state
-    aside[_CLOCK], aside[_FIRST] = clock, 0.0
-    aside[_LAST], aside[_LAST + 1], aside[_LAST + 2], aside[_LAST + 3] = last.w, last.x, last.y, last.z
 
 
 class Stream:
@@ -158,8 +84,8 @@ class Stream:
         self._has_declination = hasattr(_core(method), "declination")
         self._reset = False  # whether the heading was set by hand
         self._run: Any = None
-        self._row = np.zeros((1, _WIDTH))
-        self._gyr, self._acc, self._mag = self._row[0, _GYR:_ACC], self._row[0, _ACC:_MAG], self._row[0, _MAG:_ACC_AGE]
+        self._row = np.zeros((1, WIDTH))
+        self._gyr, self._acc, self._mag = self._row[0, GYR:ACC], self._row[0, ACC:MAG], self._row[0, MAG:ACC_AGE]
         self._aside = np.array([nan, 1.0, 1.0, 0, 0, 0, 1.0, 0, 0, 0])
         self._heading: HeadingReference = start.heading_reference if isinstance(start, Attitude) else "arbitrary"
         self._latest: Attitude | None = None
@@ -189,9 +115,9 @@ class Stream:
         if isinstance(packet[0], (int, np.number)):
             return self.update(Packet(float(packet[0]), *packet[1:]))
         many = samples(*packet)
-        rows = np.zeros((len(many["time"]), _WIDTH))
-        rows[:, _TIME] = many["time"]
-        rows[:, _GYR:_ACC], rows[:, _ACC:_MAG], rows[:, _MAG:_ACC_AGE] = many["gyr"], many["acc"], many["mag"]
+        rows = np.zeros((len(many["time"]), WIDTH))
+        rows[:, TIME] = many["time"]
+        rows[:, GYR:ACC], rows[:, ACC:MAG], rows[:, MAG:ACC_AGE] = many["gyr"], many["acc"], many["mag"]
         self._see_mag(rows)
         return self._advance(rows, many["time"])
 
@@ -222,10 +148,10 @@ class Stream:
 
     def _begin(self, rows: Floats) -> None:
         if self._start is None:
-            self._memory = _begin(self._running, rows, self._bias, self._aside)
+            self._memory = begin(self._running, rows, self._bias, self._aside)
         else:
-            self._memory = _begin_at(self._running, self._start, self._declination, self._bias, self._aside)
-            self._aside[_LAST : _LAST + 4] = self._start
+            self._memory = begin_at(self._running, self._start, self._declination, self._bias, self._aside)
+            self._aside[LAST : LAST + 4] = self._start
 
     def check(self, now: float) -> Attitude:
         """The attitude at *now* (s, the packets' clock) without a new sample, one row; for a timer.
@@ -241,7 +167,7 @@ class Stream:
             raise RecordingError(f"now: expected seconds on the packets' clock, found {now!r}")
         row = self._latest[-1:]
         flags = row.flags.copy()
-        if not now - self._aside[_CLOCK] <= self._silence:
+        if not now - self._aside[CLOCK] <= self._silence:
             flags |= np.uint32(SILENT)
         return replace(row, time=np.array([float(now)]), table=row.table.copy(), flags=flags)
 
@@ -254,29 +180,28 @@ class Stream:
             raise StateError("no attitude yet, so there is no heading to reset; feed samples first")
         heading = float(self._latest[-1:].heading(forward)[0])
         turn = arrays.turn_about_up(np.array(heading))
-        self._aside[_TURN : _TURN + 4] = arrays.multiply(turn, self._aside[_TURN : _TURN + 4])
-        self._aside[_LAST : _LAST + 4] = arrays.multiply(turn, self._aside[_LAST : _LAST + 4])
+        self._aside[TURN : TURN + 4] = arrays.multiply(turn, self._aside[TURN : TURN + 4])
+        self._aside[LAST : LAST + 4] = arrays.multiply(turn, self._aside[LAST : LAST + 4])
         self._heading, self._reset = "arbitrary", True
         self._latest = _turned(self._latest[-1:], turn)
 
     @property
     def state(self) -> Any:
         """A snapshot of the method's state, wrappers included; None before the first sample."""
-        return None if self._memory is None else _copied(_state_of(self._memory))
+        return None if self._memory is None else copied(state_of(self._memory))
 
     def save(self) -> bytes:
         """Everything needed to go on in another process: JSON text with a checksum, no pickle. See :meth:`restore`."""
         latest = self._latest
         kept = {
             "method": self._identity(),
-            "state": _flat(self.state),
+            "state": flat(self.state),
             "aside": self._aside.tolist(),
             "heading_reference": self._heading,
             "heading_reset": self._reset,
             "latest": None if latest is None else [latest.table[-1].tolist(), int(latest.flags[-1])],
         }
-        text = json.dumps(kept)
-        return json.dumps({"poise": "stream", "sha256": _digest(text), "stream": text}).encode()
+        return sealed(kept)
 
     def restore(self, saved: bytes) -> Self:
         """Go on where :meth:`save` was called, bit for bit; returns the stream.
@@ -284,11 +209,11 @@ class Stream:
         Raises :class:`StateError` where *saved* is not a stream's state, is damaged, or is that of another method or
         parameter set; the stream is then what it was.
         """
-        kept = _unsealed(saved)
+        kept = unsealed(saved)
         try:
             aside, heading, latest = np.array(kept["aside"], float), kept["heading_reference"], kept["latest"]
-            turn = aside[_TURN : _TURN + 4]
-            if aside.shape != (_ASIDE,) or not abs(np.linalg.norm(turn) - 1.0) < 1e-6:
+            turn = aside[TURN : TURN + 4]
+            if aside.shape != (ASIDE,) or not abs(np.linalg.norm(turn) - 1.0) < 1e-6:
                 raise ValueError("aside")
             if heading not in ("true", "magnetic", "arbitrary"):
                 raise ValueError("heading_reference")
@@ -298,8 +223,8 @@ class Stream:
                 if table.shape != (1, COLUMNS):
                     raise ValueError("latest")
                 flags = np.array([latest[1]], np.uint32)
-                row = Attitude(aside[[_CLOCK]], table, flags, heading, "enu", self._provenance)
-            identity, flat, reset = kept["method"], kept["state"], bool(kept["heading_reset"])
+                row = Attitude(aside[[CLOCK]], table, flags, heading, "enu", self._provenance)
+            identity, numbers, reset = kept["method"], kept["state"], bool(kept["heading_reset"])
         except (ValueError, KeyError, TypeError, IndexError, OverflowError) as problem:
             raise StateError(f"not a saved stream: {problem!r}; give the bytes that Stream.save() returned") from None
         if identity != self._identity():
@@ -308,13 +233,13 @@ class Stream:
                 "restore it into a Stream with the same method and parameters"
             )
         memory = run = None
-        if flat is not None:
-            template = _begin(self._running, np.full((1, _WIDTH), nan), self._bias, aside)
-            memory = _recall(self._running, _filled(_state_of(template), flat), aside)
-            empty = np.empty((0, _WIDTH)), np.empty((0, COLUMNS)), np.empty(0, np.uint32)
-            first = aside[_FIRST]
+        if numbers is not None:
+            template = begin(self._running, np.full((1, WIDTH), nan), self._bias, aside)
+            memory = recall(self._running, filled(state_of(template), numbers), aside)
+            empty = np.empty((0, WIDTH)), np.empty((0, COLUMNS)), np.empty(0, np.uint32)
+            first = aside[FIRST]
             advance(memory, *empty)
-            aside[_FIRST] = first  # no row has been seen by that
+            aside[FIRST] = first  # no row has been seen by that
             run = direct(advance, memory, *empty)
         self._memory, self._run, self._aside = memory, run, aside
         self._heading, self._reset, self._latest = heading, reset, row
@@ -340,14 +265,14 @@ class Stream:
             raise RecordingError(
                 f"packet of one sample: expected three numbers each for gyr, acc, mag, found {gyr!r}, {acc!r}, {mag!r}"
             ) from None
-        self._row[0, _TIME] = time
+        self._row[0, TIME] = time
         if mag is not None and self._heading == "arbitrary":
             self._see_mag(self._row)
 
     def _see_mag(self, rows: Floats) -> None:
         """The heading means something once a magnetometer has spoken, until `reset_heading` gives it another zero."""
         if self._heading == "arbitrary" and self._has_declination and not self._reset:
-            mag = rows[:, _MAG:_ACC_AGE]
+            mag = rows[:, MAG:ACC_AGE]
             if (np.isfinite(mag).all(axis=1) & mag.any(axis=1)).any():
                 self._heading = "true" if self._declination else "magnetic"
 
@@ -374,12 +299,12 @@ def estimate(
     stream = Stream(_at_gravity(method, recording.gravity), start, bias=bias, guard=guard, rest_bias=rest_bias)
     n = len(recording)
     table, flags = np.empty((n, COLUMNS)), np.empty(n, np.uint32)
-    columns = tuple(np.ascontiguousarray(getattr(recording, name)) for name in _COLUMNS)
-    buffer = np.empty((min(_BLOCK, n), _WIDTH))
+    columns = tuple(np.ascontiguousarray(getattr(recording, name)) for name in ROW_COLUMNS)
+    buffer = np.empty((min(_BLOCK, n), WIDTH))
     for first in range(0, n, _BLOCK):
         part = slice(first, min(first + _BLOCK, n))
         rows = buffer[: part.stop - first]
-        _pack(rows, *(column[part] for column in columns))
+        pack(rows, *(column[part] for column in columns))
         stream._see_mag(rows)
         stream._advance_into(rows, table[part], flags[part])
         if progress is not None:
@@ -390,24 +315,6 @@ def estimate(
 
 def _revived(method: Any, start: Any, bias: Any, guard: bool, rest_bias: bool, silence: float, saved: bytes) -> Stream:
     return Stream(method, start, bias=bias, guard=guard, rest_bias=rest_bias, silence=silence).restore(saved)
-
-
-def _digest(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()
-
-
-def _unsealed(saved: bytes) -> dict[str, Any]:
-    """What :meth:`Stream.save` put into *saved*, which must be whole."""
-    try:
-        sealed = json.loads(saved)
-        if sealed["poise"] != "stream" or sealed["sha256"] != _digest(sealed["stream"]):
-            raise ValueError("damaged")
-        kept = json.loads(sealed["stream"])
-        if not isinstance(kept, dict):
-            raise TypeError("stream")
-        return kept
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as problem:
-        raise StateError(f"not a saved stream: {problem!r}; give the bytes that Stream.save() returned") from None
 
 
 def _space() -> Iterator[tuple[Floats, Floats, NDArray[np.uint32]]]:
@@ -484,30 +391,3 @@ def _turned(row: Attitude, turn: Floats) -> Attitude:
     table = row.table.copy()
     table[:, QUAT] = arrays.multiply(turn, row.quat)
     return replace(row, table=table, heading_reference="arbitrary")
-
-
-def _copied(state: Any) -> Any:
-    if isinstance(state, tuple):
-        return type(state)(*map(_copied, state))
-    return state.copy() if isinstance(state, np.ndarray) else state
-
-
-def _flat(state: Any) -> Any:
-    if isinstance(state, tuple):
-        return [_flat(part) for part in state]
-    return state.tolist() if isinstance(state, np.ndarray) else state
-
-
-def _filled(template: Any, flat: Any) -> Any:
-    """*template* with the values of *flat*, which must have its shape."""
-    try:
-        if isinstance(template, tuple):
-            parts = [_filled(part, value) for part, value in zip(template, flat, strict=True)]
-            return type(template)(*parts)
-        if isinstance(template, np.ndarray):
-            return np.array(flat, template.dtype).reshape(template.shape)
-        if isinstance(flat, (list, str)) or flat is None:
-            raise TypeError
-        return type(template)(flat)
-    except (TypeError, ValueError, OverflowError):
-        raise StateError("the saved state does not fit this version of the method; start the stream anew") from None
