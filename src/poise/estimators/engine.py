@@ -57,7 +57,8 @@ class Stream:
 
     *start* is an attitude to start at (an :class:`Attitude`, whose first known row counts, or w x y z, body to ENU); by
     default the first usable accelerometer and magnetometer samples decide. *bias* (rad/s) is the gyroscope's, where it
-    is known. *guard* and *rest_bias* switch the wrappers off; a method given inside a ``Guard`` is taken as it is.
+    is known. *guard* and *rest_bias* switch the wrappers off; a method given inside a ``Guard`` is taken as it is. Without
+    the guard, stamps must rise and samples be finite: a method divides by the time between them.
     """
 
     def __init__(
