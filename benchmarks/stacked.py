@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from poise.data.packet import Output, Sample
 from poise.estimators.protocol import output, start
-from poise.estimators.two_stage import State, TwoStage, levelled, north_matrix, rate_matrix, up_matrix
+from poise.estimators.two_stage import State, TwoStage, levelled, north_matrix, transition_matrix, up_matrix
 from poise.math.compiled import compiled
 from poise.math.matrices import I3, I4, Mat34, Mat43, inverse, outer, transpose
 from poise.math.quaternions import attitude_of, inner, normalize, up_in_body
@@ -33,7 +33,7 @@ class Stacked(NamedTuple):
         doubt, r_a, r_m = state.doubt, _SILENCE, _SILENCE
 
         # Predict, as TwoStage does
-        A = I4 + (0.5 * T) * rate_matrix(sample.gyr - state.bias)
+        A = transition_matrix(sample.gyr - state.bias, T, f.transition == "exact")
         Q = (0.25 * T * f.gyr_noise**2) * (I4 - outer(x, x))
         x = A @ x
         P = A @ P @ transpose(A) + Q
@@ -47,7 +47,7 @@ class Stacked(NamedTuple):
             r_a = (f.acc_noise / f.gravity * (1.0 + doubt)) ** 2 / sample.acc_dt
         if present(sample.mag):
             r_m = f.mag_noise**2 / sample.mag_dt
-        q_1 = q_am if f.stage1_heading == "measured" else levelled(x, acc)
+        q_1 = q_am if f.stage1_heading == "measured" and present(sample.mag) else levelled(x, acc)
         H1, H2 = up_matrix(q_1), north_matrix(q_am)
 
         # One update with H (6 × 4), S (6 × 6) and K (4 × 6)

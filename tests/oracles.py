@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
 Floats = NDArray[np.float64]
@@ -143,6 +144,7 @@ def two_stage(
     acc_noise: float,
     mag_noise: float,
     motion_factor: float,
+    transition: str,
     stage1_heading: str,
     decouple: bool,
     declination: float,
@@ -161,7 +163,7 @@ def two_stage(
         dt = time[i] - time[i - 1]
         f, m = acc[i], mag[i]
         # 2. predict. Open: Ξ is taken at x(k−1), not at x⁻.
-        a = eye + 0.5 * dt * omega(gyr[i])
+        a = expm(0.5 * dt * omega(gyr[i])) if transition == "exact" else eye + 0.5 * dt * omega(gyr[i])
         q_noise = (0.5 * dt) ** 2 * xi(x) @ xi(x).T * gyr_noise**2 / dt
         x = a @ x
         p = a @ p @ a.T + q_noise

@@ -74,7 +74,7 @@ def of_gyr(time: Floats, gyr: Floats, acc: Floats, mag: Floats) -> Verdict:
         if (fit := _fit(predicted, seen)) is not None:
             found[name] = fit
     if not found:
-        return Verdict("", "it turns too little, or too few samples are complete, to compare it with gravity or the magnetic field")
+        return Verdict("", "it turns too little, or too few rows are complete, to compare it with gravity or the field")
     against, (scale, error) = max(found.items(), key=lambda item: item[1][0] / item[1][1])
     sentence = f"{against} turns by {scale:.3g} ± {error:.1g} rad per unit of it (rad/s is 1, deg/s 0.0175)"
     near = [unit for unit in _CANDIDATES if 0.4 < scale / FACTORS["gyr"][unit] < 2.5]
