@@ -51,6 +51,15 @@ def test_every_command_explains_itself(command: str, capsys: pytest.CaptureFixtu
     assert len(text) > 400
 
 
+def test_help_teaches(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["--help"]) == 0
+    assert "the main job" in capsys.readouterr().out
+    assert run(["estimate", "--help"]) == 0
+    text = capsys.readouterr().out
+    assert "Examples" in text
+    assert "w x y z" in text
+
+
 def test_estimate_writes_the_attitude_beside_its_facts(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["estimate", "made.csv", "--plot", "made.png"]) == 0
     out = capsys.readouterr().out

@@ -1,4 +1,4 @@
-"""The command ``poise``: one light module a subcommand, loaded when it is called."""
+"""The command ``poise``: one light module a subcommand; what is heavy is imported when it is called."""
 
 from __future__ import annotations
 
@@ -6,6 +6,11 @@ import os
 import sys
 
 from cyclopts import App, CycloptsError
+
+from poise.cli.estimate import estimate
+from poise.cli.evaluate import evaluate
+from poise.cli.methods import methods
+from poise.cli.sniff import sniff
 
 app = App(
     name="poise",
@@ -17,10 +22,10 @@ writes the attitude and a picture. Every command explains itself with `--help`."
     help_format="markdown",
     version=lambda: f"poise {_version()}",
 )
-app.command("poise.cli.estimate:estimate", name="estimate", help="Turn recordings into attitudes: the main job.")
-app.command("poise.cli.evaluate:evaluate", name="evaluate", help="Compare attitudes with a reference.")
-app.command("poise.cli.sniff:sniff", name="sniff", help="Say what a file is: format, rates, gaps, units, doubts.")
-app.command("poise.cli.methods:methods", name="methods", help="List the methods, or one with all its parameters.")
+app.command(estimate)
+app.command(evaluate)
+app.command(sniff)
+app.command(methods)
 
 
 def main() -> None:
