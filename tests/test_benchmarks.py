@@ -24,6 +24,7 @@ import speed
 from accuracy import Score
 from peers import PEERS, installed, period
 from stacked import Stacked
+from studies import block_means
 from tables import Cell, table
 
 # Poses of a body with x right, y forward, z up: turned about up first, then about its own axes.
@@ -198,3 +199,18 @@ def test_tables_line_up() -> None:
     rows: list[list[Cell]] = [["a", 1.0, None], ["long", 22.5, 3]]
     assert table(["", "x", "n"], rows, digits=1) == "         x  n\na      1.0  -\nlong  22.5  3"
     assert table(["", "x"], [["a", 1.0]], markdown=True).splitlines()[1] == "| - | ----: |"
+
+
+def test_block_means_keep_the_centre() -> None:
+    """Averaging three samples: values are means, stamps and reference those of the middle one."""
+    made = measure(forearm(4.0, 90.0), PERFECT)
+    recording = Recording(
+        made.time, made.gyr, made.acc, made.mag, truth=made.truth, moving=np.ones(len(made), dtype=bool)
+    )
+    third = block_means(recording, 3)
+    assert len(third) == len(recording) // 3
+    np.testing.assert_array_equal(third.time, recording.time[1::3][: len(third)])
+    np.testing.assert_allclose(third.gyr[0], recording.gyr[:3].mean(axis=0))
+    assert third.truth is not None
+    assert recording.truth is not None
+    np.testing.assert_array_equal(third.truth.quat[0], recording.truth.quat[1])

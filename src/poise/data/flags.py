@@ -38,7 +38,7 @@ SENTENCES: dict[Flag, str] = {
     Flag.SILENT: "no sample has arrived in time: the attitude now is unknown",
     Flag.REST: "at rest: the gyroscope's bias is being measured",
     Flag.ACC_DOUBTED: "specific force far from gravity: the accelerometer counts less",
-    Flag.HEADING_ARBITRARY: "no magnetometer sample so far: the heading counts from where it started",
+    Flag.HEADING_ARBITRARY: "no magnetometer sample since the start: the heading counts from where it started",
     Flag.CORRECTION_FORCED: "the correction stood out from its history: the preset gain was forced",
 }
 
