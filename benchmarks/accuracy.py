@@ -18,8 +18,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from peers import PEERS, Peer, installed
 from poise import METHODS, Attitude, PoiseError, Recording, estimate, evaluate, read
+from poise.peers import PEERS, Peer, installed
 from tables import Cell, heading, table
 
 RESULTS = Path(__file__).parent / "results"

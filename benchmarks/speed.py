@@ -19,9 +19,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import accuracy
-from peers import imufusion_ahrs, imufusion_filter, imufusion_units, installed, period
 from poise import METHODS, Attitude, Packet, Recording, Stream, TwoStage, estimate
 from poise.math import arrays
+from poise.peers import installed, period
+from poise.peers.adapters import imufusion_ahrs, imufusion_filter, imufusion_units
 from poise.simulation import Sensor, forearm, measure
 from stacked import Stacked
 from tables import Cell, heading, table

@@ -1,0 +1,112 @@
+"""Each package's filter as a function: an even, complete recording in, quaternions w x y z, sensor to ENU, out.
+
+Every package has its own frame, units and start; ``tests/test_peers.py`` pins what comes out of these adapters. Without
+a magnetometer each runs its variant for gyroscope and accelerometer, whose heading counts from where it started.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from poise.data.recording import STANDARD_GRAVITY, Recording
+from poise.math import arrays
+from poise.peers.even import period
+
+Floats = NDArray[np.float64]
+
+_QUARTER_TURN = arrays.turn_about_up(np.array(np.pi / 2))  # x north, y west, z up → east, north, up
+
+
+def vqf_causal(recording: Recording) -> Floats:
+    """VQF with its defaults, sample after sample."""
+    from vqf import VQF
+
+    vqf = VQF(period(recording))
+    if not recording.has_mag:
+        return np.asarray(vqf.updateBatch(recording.gyr, recording.acc)["quat6D"])
+    return np.asarray(vqf.updateBatch(recording.gyr, recording.acc, recording.mag)["quat9D"])
+
+
+def vqf_offline(recording: Recording) -> Floats:
+    """VQF's offline variant, which knows the future."""
+    from vqf import offlineVQF
+
+    mag, key = (recording.mag, "quat9D") if recording.has_mag else (None, "quat6D")
+    return np.asarray(offlineVQF(recording.gyr, recording.acc, mag, period(recording), None)[key])
+
+
+def imufusion_ahrs(recording: Recording) -> Floats:
+    """Fusion's bias and AHRS algorithms, one sample a call: it has no other way."""
+    bias, ahrs = imufusion_filter(recording)
+    quat = np.empty((len(recording), 4))
+    has_mag = recording.has_mag
+    for i, (gyr, acc, mag) in enumerate(zip(*imufusion_units(recording), strict=True)):
+        if has_mag:
+            ahrs.update(bias.update(gyr), acc, mag)
+        else:
+            ahrs.update_no_magnetometer(bias.update(gyr), acc)
+        quat[i] = ahrs.get_quaternion()
+    return quat
+
+
+def ahrs_madgwick(recording: Recording) -> Floats:
+    """Madgwick's filter, whose world is x north, y west, z up; its own start takes half turns for identity."""
+    from ahrs.filters import Madgwick
+
+    # The gain has to be said: without arrays in the constructor it is that of a filter without magnetometer.
+    has_mag = recording.has_mag
+    madgwick = Madgwick(Dt=period(recording), gain=0.041 if has_mag else 0.033)
+    quat = np.empty((len(recording), 4))
+    quat[0] = arrays.multiply(arrays.conjugate(_QUARTER_TURN), first_attitude(recording))
+    for i in range(1, len(recording)):
+        if has_mag:
+            quat[i] = madgwick.updateMARG(quat[i - 1], recording.gyr[i], recording.acc[i], recording.mag[i])
+        else:
+            quat[i] = madgwick.updateIMU(quat[i - 1], recording.gyr[i], recording.acc[i])
+    return arrays.multiply(_QUARTER_TURN, quat)
+
+
+def ahrs_mahony(recording: Recording) -> Floats:
+    """Mahony's filter, whose world is ENU."""
+    from ahrs.filters import Mahony
+
+    mag = recording.mag if recording.has_mag else None
+    # Its own start needs the field; without a sample of it there, the filter starts like Madgwick's.
+    start = None if mag is not None and mag[0].any() else first_attitude(recording)
+    return np.asarray(Mahony(gyr=recording.gyr, acc=recording.acc, mag=mag, q0=start, Dt=period(recording)).Q)
+
+
+def first_attitude(recording: Recording) -> Floats:
+    """(4,) w x y z, sensor to ENU, of the first accelerometer and magnetometer sample; facing north without the latter."""
+    from poise.math.quaternions import attitude_of
+    from poise.math.vectors import Vec3
+
+    return np.array(attitude_of(Vec3(*recording.acc[0]), Vec3(*recording.mag[0]), 0.0))
+
+
+def imufusion_filter(recording: Recording) -> tuple[Any, Any]:
+    """Fusion's bias and AHRS objects with the settings of the vendor's complete example, in ENU."""
+    import imufusion
+
+    settings = imufusion.AhrsSettings()
+    settings.convention = imufusion.CONVENTION_ENU  # as an attribute: the constructor does not take it over
+    settings.sample_rate = 1.0 / period(recording)
+    settings.gain, settings.gyroscope_range = 0.5, 2000.0
+    settings.acceleration_rejection = settings.magnetic_rejection = 10.0
+    settings.rejection_timeout = 5.0
+    ahrs = imufusion.Ahrs()
+    ahrs.set_settings(settings)
+    ahrs.set_sample_period(period(recording))
+    still = imufusion.BiasSettings()
+    still.sample_rate = settings.sample_rate
+    bias = imufusion.Bias()
+    bias.set_settings(still)
+    return bias, ahrs
+
+
+def imufusion_units(recording: Recording) -> tuple[Floats, Floats, Floats]:
+    """Fusion's units: deg/s, g and any magnetic one."""
+    return np.degrees(recording.gyr), recording.acc / STANDARD_GRAVITY, recording.mag
