@@ -145,9 +145,8 @@ def torque(attitude: Attitude) -> tuple[float, float, float]:
 
 def form_errors() -> dict[str, float]:
     """The mean total RMSE of the filter's forms on the BROAD trials, degrees; empty where there are none."""
-    runs = {name: accuracy.run_method(method) for name, method in FORMS.items()}
-    scores = accuracy.measure(accuracy.trial_files(), runs)
-    return {name: accuracy.means(trials)["all"]["total"] for name, trials in scores.items() if trials}
+    scores = accuracy.measure(accuracy.trial_files(), FORMS)
+    return {name: float(np.mean([s.judged for s in trials.values()])) for name, trials in scores.items() if trials}
 
 
 def largest_difference_deg(made: Recording) -> float:

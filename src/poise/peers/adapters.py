@@ -6,6 +6,7 @@ a magnetometer each runs its variant for gyroscope and accelerometer, whose head
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -31,11 +32,29 @@ def vqf_causal(recording: Recording) -> Floats:
 
 
 def vqf_offline(recording: Recording) -> Floats:
-    """VQF's offline variant, which knows the future."""
+    """VQF's offline variant, which knows the future; its silent magnetometer rows are filled in, see :func:`carried`."""
     from vqf import offlineVQF
 
-    mag, key = (recording.mag, "quat9D") if recording.has_mag else (None, "quat6D")
-    return np.asarray(offlineVQF(recording.gyr, recording.acc, mag, period(recording), None)[key])
+    gyr, acc, mag, seconds = recording.gyr, recording.acc, recording.mag, period(recording)
+    if not recording.has_mag or not mag.any(axis=1).all():
+        level = np.asarray(offlineVQF(gyr, acc, None, seconds, None)["quat6D"])
+        if not recording.has_mag:
+            return level
+        mag = carried(mag, level)
+    return np.asarray(offlineVQF(gyr, acc, mag, seconds, None)["quat9D"])
+
+
+def carried(mag: Floats, quat: Floats) -> Floats:
+    """(n, 3) the field with its silent rows (0) as the attitude without magnetometer carries it over from the others.
+
+    For a filter that takes 0 for a field that points along the body's x axis.
+    """
+    known = np.any(mag != 0.0, axis=1, keepdims=True)
+    heard = np.flatnonzero(known)
+    field = arrays.rotate(quat[heard], mag[heard])
+    rows = np.arange(len(mag))
+    carried_over = np.column_stack([np.interp(rows, heard, column) for column in field.T])
+    return np.where(known, mag, arrays.rotate(arrays.conjugate(quat), carried_over))
 
 
 def imufusion_ahrs(recording: Recording) -> Floats:
@@ -56,31 +75,45 @@ def ahrs_madgwick(recording: Recording) -> Floats:
     """Madgwick's filter, whose world is x north, y west, z up; its own start takes half turns for identity."""
     from ahrs.filters import Madgwick
 
-    # The gain has to be said: without arrays in the constructor it is that of a filter without magnetometer.
-    has_mag = recording.has_mag
-    madgwick = Madgwick(Dt=period(recording), gain=0.041 if has_mag else 0.033)
-    quat = np.empty((len(recording), 4))
-    quat[0] = arrays.multiply(arrays.conjugate(_QUARTER_TURN), first_attitude(recording))
-    for i in range(1, len(recording)):
-        if has_mag:
-            quat[i] = madgwick.updateMARG(quat[i - 1], recording.gyr[i], recording.acc[i], recording.mag[i])
-        else:
-            quat[i] = madgwick.updateIMU(quat[i - 1], recording.gyr[i], recording.acc[i])
-    return arrays.multiply(_QUARTER_TURN, quat)
+    seconds = period(recording)
+
+    def run(part: Recording) -> Floats:
+        # The gain has to be said: without arrays in the constructor it is that of a filter without magnetometer.
+        has_mag = part.has_mag
+        madgwick = Madgwick(Dt=seconds, gain=0.041 if has_mag else 0.033)
+        quat = np.empty((len(part), 4))
+        quat[0] = arrays.multiply(arrays.conjugate(_QUARTER_TURN), first_attitude(part))
+        for i in range(1, len(part)):
+            if has_mag:
+                quat[i] = madgwick.updateMARG(quat[i - 1], part.gyr[i], part.acc[i], part.mag[i])
+            else:
+                quat[i] = madgwick.updateIMU(quat[i - 1], part.gyr[i], part.acc[i])
+        return arrays.multiply(_QUARTER_TURN, quat)
+
+    return anew_at_first_field(recording, run)
 
 
 def ahrs_mahony(recording: Recording) -> Floats:
     """Mahony's filter, whose world is ENU."""
     from ahrs.filters import Mahony
 
-    mag = recording.mag if recording.has_mag else None
-    # Its own start needs the field; without a sample of it there, the filter starts like Madgwick's.
-    start = None if mag is not None and mag[0].any() else first_attitude(recording)
-    return np.asarray(Mahony(gyr=recording.gyr, acc=recording.acc, mag=mag, q0=start, Dt=period(recording)).Q)
+    seconds = period(recording)
+
+    def run(part: Recording) -> Floats:
+        mag, start = (part.mag, None) if part.has_mag else (None, first_attitude(part))
+        return np.asarray(Mahony(gyr=part.gyr, acc=part.acc, mag=mag, q0=start, Dt=seconds).Q)
+
+    return anew_at_first_field(recording, run)
+
+
+def anew_at_first_field(recording: Recording, run: Callable[[Recording], Floats]) -> Floats:
+    """What *run* gives, started anew where a late magnetometer sets in: from a wrong heading it would turn for minutes."""
+    first = int(np.argmax(recording.mag.any(axis=1))) if recording.has_mag else 0
+    return np.concatenate([run(recording[rows]) for rows in (slice(0, first), slice(first, None)) if rows.stop != 0])
 
 
 def first_attitude(recording: Recording) -> Floats:
-    """(4,) w x y z, sensor to ENU, of the first accelerometer and magnetometer sample; facing north without the latter."""
+    """(4,) w x y z, sensor to ENU, of the first accelerometer and magnetometer sample; heading 0 without the latter."""
     from poise.math.quaternions import attitude_of
     from poise.math.vectors import Vec3
 

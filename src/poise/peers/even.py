@@ -166,13 +166,16 @@ def _own(recording: Recording, sensor: str, clock: Floats, forward: Rows) -> tup
 
 
 def _interpolated(grid: Floats, own: Floats, values: Floats) -> tuple[Floats, Rows]:
-    """(m, 3) between the sensor's own samples, and whether they are near enough."""
+    """(m, 3) between the sensor's own samples, and whether they are near enough: at the ends, within about its period."""
     if not len(own):
         return np.full((len(grid), 3), np.nan), np.zeros(len(grid), dtype=bool)
+    own_period = float(np.median(np.diff(own))) if len(own) > 1 else np.inf
+    held = min(GAP, 1.5 * own_period) if own_period <= GAP else 0.0
     after = np.searchsorted(own, grid)
     before, after = np.maximum(after - 1, 0), np.minimum(after, len(own) - 1)
-    span = np.maximum(np.maximum(own[after], grid) - np.minimum(own[before], grid), 0.0)
-    known = (span <= GAP * (1.0 + 1e-6)) | (own[after] == grid)
+    span = np.where(before < after, own[after] - own[before], 0.0)
+    outside = np.maximum(np.maximum(own[0] - grid, grid - own[-1]), 0.0)
+    known = ((span <= GAP * (1.0 + 1e-6)) | (own[after] == grid)) & (outside <= held)
     return np.column_stack([np.interp(grid, own, column) for column in values.T]), known
 
 
