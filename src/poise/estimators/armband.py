@@ -14,7 +14,7 @@ Departures from the print:
 - φ − angle is wrapped to ±180°.
 - ``kinematics``: the angles' increment comes from the turn of the attitude (``"exact"``) or from the rates of the Euler
   angles (``"euler"``), with Q mapped alike and the angles folded past ±90° of pitch. The print (``"small-angle"``) adds
-  the body's rates to the angles.
+  the body's rates to the angles and folds nothing.
 - Of the two triples of angles that name the measured attitude, the one nearer to the prediction is compared with it.
 """
 
@@ -48,6 +48,12 @@ class State(NamedTuple):
     mean_acc: Vec3
     mean_gyr: Vec3
     mean_mag: Vec3  # of the field's direction
+
+
+class Prediction(NamedTuple):
+    angles: Angles  # of X⁻
+    covariance: Mat3  # P⁻ of the angles
+    shared: Mat3  # P⁻ of the angles with the rates
 
 
 class Armband(NamedTuple):
@@ -100,75 +106,36 @@ class Armband(NamedTuple):
 
     def step(self, state: State, sample: Sample) -> State:
         w, T, f, m = sample.gyr - state.bias, sample.dt, sample.acc, sample.mag
-        X, P, spread = state.angles, state.covariance, state.spread
         age = state.age + T
 
         # 1. Start: the angles of the mean acc and mag, for as long as the band is held still
-        if state.starting:
-            still = age < self.start_time and at_rest(self, state, sample)
-            if still:
-                return resting(self, state, sample)
+        if state.starting and age < self.start_time and at_rest(self, state, sample):
+            return resting(self, state, sample)
 
-        # 2. Noise of the rates over this step: σ_g²/T each
-        q = self.gyr_noise**2 / T
+        # 2. Noise, 3. Predict: X⁻ = Φ X with the rates of this sample, P⁻ = Φ P Φᵀ + Γ Q Γᵀ
+        X, P, shared = predicted(self, state.angles, state.covariance, w, T)
+        spread = state.spread
 
-        # 3. Predict: Φ X with the rates of this sample, P⁻ = Φ P Φᵀ + Γ Q Γᵀ
-        if self.kinematics == "small-angle":
-            X = Angles(wrapped(X.pitch + T * w.x), wrapped(X.roll + T * w.y), wrapped(X.heading + T * w.z))
-            P = P + diagonal(T * T * q, T * T * q, T * T * q)
-            G = diagonal(T * q, T * q, T * q)
-        else:
-            J = rate_map(slope_at(X.pitch, X.roll))
-            before = X
-            if self.kinematics == "exact":
-                X = angles_from(from_angles(X) * exp(T * w))
-            else:
-                turned: Vec3 = J @ w
-                X = Angles(X.pitch + T * turned.x, X.roll + T * turned.y, X.heading + T * turned.z)
-                X = folded(X) if folds(X.pitch) else Angles(X.pitch, wrapped(X.roll), wrapped(X.heading))
-            P = P + (T * T * q) * (J @ transpose(J))
-            G = (T * q) * J  # P⁻ of angles with rates
-            if cos(wrapped(X.roll - before.roll)) < 0.0:
-                P = pitch_turned(P)
-                G = Mat3(-G.x, G.y, G.z)
-        if not present(f):
-            return State(from_angles(X), state.bias, X, w, P, spread, False, age, state.rested, ZERO, ZERO, ZERO)
-
-        # 4. Measurement: Z − H X⁻ = (1 − α)(φ − X⁻)
-        phi = measured(self, f, m)
-        off = off_by(phi, X, present(m))
-        innovation = Vec3((1.0 - self.alpha) * off.pitch, (1.0 - self.beta) * off.roll, (1.0 - self.zeta) * off.heading)
-        R = Vec3(
-            self.pitch_noise**2 / sample.acc_dt,
-            self.roll_noise**2 / sample.acc_dt,
-            self.heading_noise**2 / sample.mag_dt if present(m) else _UNKNOWN,
-        )
-        if self.r_mode == "running":
-            share = sample.acc_dt / (self.running_time + sample.acc_dt)
-            mag_share = sample.mag_dt / (self.running_time + sample.mag_dt) if present(m) else 0.0
-            spread = Vec3(
-                spread.x + share * (innovation.x**2 - spread.x),
-                spread.y + share * (innovation.y**2 - spread.y),
-                spread.z + mag_share * (innovation.z**2 - spread.z),
+        if present(f):
+            # 4. Measurement: Z − H X⁻ = (1 − α)(φ − X⁻)
+            off = off_by(measured(self, f, m), X, present(m))
+            innovation = Vec3(
+                (1.0 - self.alpha) * off.pitch, (1.0 - self.beta) * off.roll, (1.0 - self.zeta) * off.heading
             )
-            acc_time, mag_time = self.error_time / sample.acc_dt, self.error_time / sample.mag_dt
-            R = Vec3(
-                max(R.x, acc_time * spread.x),
-                max(R.y, acc_time * spread.y),
-                max(R.z, mag_time * spread.z) if present(m) else _UNKNOWN,
-            )
+            spread = spread_with(self, spread, innovation, sample)
+            R = measurement_noise(self, spread, sample)
 
-        # 5. Update: K = P⁻ Hᵀ (H P⁻ Hᵀ + R)⁻¹, X = X⁻ + K (Z − H X⁻), P = (I − K H) P⁻
-        weighed = inverse(P + diagonal(R.x, R.y, R.z))
-        pull: Vec3 = weighed @ innovation
-        change: Vec3 = P @ pull
-        turn: Vec3 = transpose(G) @ pull
-        P = P - P @ weighed @ P
-        X = Angles(X.pitch + change.x, X.roll + change.y, X.heading + change.z)
-        X = Angles(wrapped(X.pitch), wrapped(X.roll), wrapped(X.heading))
-        if folds(X.pitch) and (self.kinematics == "exact" or self.kinematics == "euler"):
-            X, P = folded(X), pitch_turned(P)
-        return State(from_angles(X), state.bias, X, w + turn, P, spread, False, age, state.rested, ZERO, ZERO, ZERO)
+            # 5. Update: K = P⁻ Hᵀ (H P⁻ Hᵀ + R)⁻¹, X = X⁻ + K (Z − H X⁻), P = (I − K H) P⁻
+            S = inverse(P + diagonal(R.x, R.y, R.z))
+            pull: Vec3 = S @ innovation
+            change: Vec3 = P @ pull
+            turn: Vec3 = transpose(shared) @ pull
+            w = w + turn
+            P = P - P @ S @ P
+            X = Angles(wrapped(X.pitch + change.x), wrapped(X.roll + change.y), wrapped(X.heading + change.z))
+            if self.kinematics != "small-angle" and folds(X.pitch):
+                X, P = folded(X), pitch_turned(P)
+        return State(from_angles(X), state.bias, X, w, P, spread, False, age, state.rested, ZERO, ZERO, ZERO)
 
     def output(self, state: State, sample: Sample) -> Output:
         """6. The angles' attitude and the rate state; sigma about the Earth's axes from P."""
@@ -187,6 +154,55 @@ class Armband(NamedTuple):
 def _sigma(variance: float) -> float:
     """rad; an angle of which nothing is known is not further off than half a turn."""
     return min(sqrt(max(variance, 0.0)), pi)
+
+
+@compiled
+def predicted(method: Armband, X: Angles, P: Mat3, w: Vec3, T: float) -> Prediction:
+    """X⁻ = Φ X and P⁻ = Φ P Φᵀ + Γ Q Γᵀ with Φ = [[I, T J], [0, I]], Γ = [T J; I], Q = σ_g²/T; J = I in the print.
+
+    The rates are this sample's and their rows of P zero, so that P⁻ is P + T² J Q Jᵀ of the angles, T J Q with the rates.
+    """
+    q = method.gyr_noise**2 / T
+    if method.kinematics == "small-angle":
+        P = P + diagonal(T * T * q, T * T * q, T * T * q)
+        X = Angles(wrapped(X.pitch + T * w.x), wrapped(X.roll + T * w.y), wrapped(X.heading + T * w.z))
+        return Prediction(X, P, diagonal(T * q, T * q, T * q))
+    J = rate_map(slope_at(X.pitch, X.roll))
+    P = P + (T * T * q) * (J @ transpose(J))
+    shared = (T * q) * J
+    if method.kinematics == "exact":
+        after = angles_from(from_angles(X) * exp(T * w))
+        over = cos(after.roll - X.roll) < 0.0  # the turn went past ±90°
+    else:
+        rates: Vec3 = J @ w
+        after = Angles(X.pitch + T * rates.x, wrapped(X.roll + T * rates.y), wrapped(X.heading + T * rates.z))
+        over = folds(after.pitch)
+        after = folded(after) if over else after
+    return Prediction(after, pitch_turned(P), turned(shared)) if over else Prediction(after, P, shared)
+
+
+@compiled
+def spread_with(method: Armband, spread: Vec3, innovation: Vec3, sample: Sample) -> Vec3:
+    """The running variance of Z − H X⁻ with one more of it; the heading's waits for the magnetometer."""
+    share = sample.acc_dt / (method.running_time + sample.acc_dt)
+    of_heading = sample.mag_dt / (method.running_time + sample.mag_dt) if present(sample.mag) else 0.0
+    return Vec3(
+        spread.x + share * (innovation.x**2 - spread.x),
+        spread.y + share * (innovation.y**2 - spread.y),
+        spread.z + of_heading * (innovation.z**2 - spread.z),
+    )
+
+
+@compiled
+def measurement_noise(method: Armband, spread: Vec3, sample: Sample) -> Vec3:
+    """R, rad²: the given noise or, "running", what the running variance says where that is more."""
+    pitch, roll, heading = method.pitch_noise**2, method.roll_noise**2, method.heading_noise**2
+    if method.r_mode == "running":
+        pitch = max(pitch, method.error_time * spread.x)
+        roll = max(roll, method.error_time * spread.y)
+        heading = max(heading, method.error_time * spread.z)
+    unmeasured = not present(sample.mag)
+    return Vec3(pitch / sample.acc_dt, roll / sample.acc_dt, _UNKNOWN if unmeasured else heading / sample.mag_dt)
 
 
 @compiled
@@ -228,6 +244,12 @@ def resting(method: Armband, state: State, sample: Sample) -> State:
     return State(
         from_angles(angles), state.bias, angles, gyr - state.bias, P, ZERO, True, rested, rested, acc, gyr, mag
     )
+
+
+@compiled
+def turned(rows: Mat3) -> Mat3:
+    """Rows for θ, γ, ψ after a fold: θ's changes sign."""
+    return Mat3(-rows.x, rows.y, rows.z)
 
 
 @compiled
