@@ -14,9 +14,11 @@ from poise.version import __version__ as __version__
 # Names are imported when they are first used: `poise --help` must not wait for a compiler.
 _HOME = {
     "AdaptiveGain": "poise.estimators.adaptive_gain",
+    "Armband": "poise.estimators.armband",
     "Attitude": "poise.data.attitude",
     "Errors": "poise.evaluation",
     "Flag": "poise.data.flags",
+    "Gated": "poise.estimators.gated",
     "Guard": "poise.estimators.guard",
     "METHODS": "poise.estimators",
     "Packet": "poise.data.packet",
@@ -24,6 +26,7 @@ _HOME = {
     "Recording": "poise.data.recording",
     "RestBias": "poise.estimators.rest_bias",
     "Stream": "poise.estimators.engine",
+    "Tilt": "poise.estimators.tilt",
     "TwoStage": "poise.estimators.two_stage",
     "estimate": "poise.estimators.engine",
     "evaluate": "poise.evaluation",
@@ -43,10 +46,13 @@ if TYPE_CHECKING:
     from poise.errors import PoiseError as PoiseError
     from poise.estimators import METHODS as METHODS
     from poise.estimators.adaptive_gain import AdaptiveGain as AdaptiveGain
+    from poise.estimators.armband import Armband as Armband
     from poise.estimators.engine import Stream as Stream
     from poise.estimators.engine import estimate as estimate
+    from poise.estimators.gated import Gated as Gated
     from poise.estimators.guard import Guard as Guard
     from poise.estimators.rest_bias import RestBias as RestBias
+    from poise.estimators.tilt import Tilt as Tilt
     from poise.estimators.two_stage import TwoStage as TwoStage
     from poise.evaluation import Errors as Errors
     from poise.evaluation import evaluate as evaluate

@@ -53,7 +53,11 @@ def methods(name: str | None = None, /, *, json: Annotated[bool, Parameter(negat
 
 def _row(parameter: Any) -> dict[str, Any]:
     choices = f" ({', '.join(parameter.choices)})" if parameter.choices else ""
-    default = parameter.default if isinstance(parameter.default, (bool, str)) else f"{parameter.default:.6g}"
+    default = parameter.default
+    if isinstance(default, tuple):
+        default = ",".join(f"{end:.6g}" for end in default)
+    elif not isinstance(default, (bool, str)):
+        default = f"{default:.6g}"
     return {
         "name": parameter.name,
         "default": default,

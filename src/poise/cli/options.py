@@ -197,8 +197,12 @@ def _checked_declination(degrees: float) -> float:
 
 
 def _parsed(text: str, kind: Any) -> Any:
+    from poise.estimators.parameters import Interval
+
     if kind is bool and text.lower() in ("true", "yes", "on", "1", "false", "no", "off", "0"):
         return text.lower() in ("true", "yes", "on", "1")
+    if kind == Interval:
+        return None if text.lower() == "none" else tuple(_parsed(end, float) for end in text.split(","))
     if kind in (int, float):
         try:
             return float(text)

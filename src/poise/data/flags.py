@@ -24,6 +24,7 @@ class Flag(IntFlag):
     ACC_DOUBTED = 1 << 10
     CORRECTION_FORCED = 1 << 11
     HEADING_ARBITRARY = 1 << 12
+    START_IN_MOTION = 1 << 13
 
 
 SENTENCES: dict[Flag, str] = {
@@ -39,6 +40,7 @@ SENTENCES: dict[Flag, str] = {
     Flag.REST: "at rest: the gyroscope's bias is being measured",
     Flag.ACC_DOUBTED: "specific force far from gravity: the accelerometer counts less",
     Flag.HEADING_ARBITRARY: "no magnetometer sample since the start: the heading counts from where it started",
+    Flag.START_IN_MOTION: "started in motion: the angles of one sample, which may be far off",
     Flag.CORRECTION_FORCED: "the correction stood out from its history: the preset gain was forced",
 }
 
@@ -59,6 +61,7 @@ REST = int(Flag.REST)
 ACC_DOUBTED = int(Flag.ACC_DOUBTED)
 CORRECTION_FORCED = int(Flag.CORRECTION_FORCED)
 HEADING_ARBITRARY = int(Flag.HEADING_ARBITRARY)
+START_IN_MOTION = int(Flag.START_IN_MOTION)
 
 
 def valid(flags: NDArray[np.uint32]) -> NDArray[np.bool_]:

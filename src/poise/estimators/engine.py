@@ -342,7 +342,7 @@ def _wrapped(method: Any, guard: bool, rest_bias: bool) -> Any:
     facts: dict[str, Any] = {
         name: float(getattr(_core(method), name)) for name in ("declination", "gravity") if hasattr(_core(method), name)
     }
-    return Guard(method, **facts)
+    return Guard(method, follows_mag=hasattr(_core(method), "declination"), **facts)
 
 
 def _at_gravity(method: Any, gravity: float) -> Any:

@@ -53,6 +53,11 @@ class Guard(NamedTuple):
     gravity: Annotated[float, "m/s²", "length of gravity, which a resting accelerometer measures", (0.1, 100.0)] = (
         9.80665
     )
+    follows_mag: Annotated[
+        bool,
+        "yes/no",
+        "the method follows a magnetometer: starts anew at a late first sample of it; its loss is flagged",
+    ] = True
     gap: Annotated[float, "s", "a longer step between stamps is flagged"] = 0.2
     longest_loss: Annotated[float, "s", "without rotation for longer, the attitude is unknown"] = 1.0
     acc_loss: Annotated[float, "s", "without accelerometer for longer, samples are flagged"] = 0.5
@@ -95,7 +100,7 @@ class Guard(NamedTuple):
         if acc_absent > self.acc_loss:
             flags |= ACC_MISSING
         mag_seen = state.mag_seen or mag_absent == 0.0
-        if mag_seen and mag_absent > self.mag_loss:
+        if mag_seen and self.follows_mag and mag_absent > self.mag_loss:
             flags |= MAG_MISSING
         if dt > self.gap:
             flags |= GAP
@@ -105,7 +110,7 @@ class Guard(NamedTuple):
         usable = acc_absent == 0.0 and gyr_absent == 0.0
         has_mag = mag_absent == 0.0
         sample = with_sensors(clean, gyr, clean.acc, clean.mag)
-        if state.started and not lost and (state.aligned or not has_mag):
+        if state.started and not lost and (state.aligned or not has_mag or not self.follows_mag):
             inner = step(self.method, state.inner, sample)
             astray = 0.0
             if usable and _at_rest(sample, self.gravity):
@@ -132,9 +137,10 @@ class Guard(NamedTuple):
             )  # fmt: skip
         if state.started:
             flags |= RESET
-            sample = _restart(before.attitude, sample, lost, self.declination)
+            sample = _restart(self, before.attitude, sample, lost)
         inner = start(self.method, sample, before.bias)
-        aligned = has_mag or (state.started and state.aligned and not state.mag_seen)
+        kept = state.aligned and (not state.mag_seen or not self.follows_mag)
+        aligned = kept if state.started and not self.follows_mag else has_mag or (state.started and kept)
         flags |= 0 if aligned else HEADING_ARBITRARY
         return State(inner, gyr, True, aligned, mag_seen, False, gyr_absent, acc_absent, mag_absent, 0.0, 0, flags)
 
@@ -161,15 +167,17 @@ def _held(guard: Guard, state: State) -> State:
 
 
 @compiled
-def _restart(attitude: Quat, sample: Sample, lost: bool, declination: float) -> Sample:
+def _restart(guard: Guard, attitude: Quat, sample: Sample, lost: bool) -> Sample:
     """The sample to start anew from: what is known of tilt and heading stays, the rest is the sample's.
 
-    After a loss the tilt is the accelerometer's; a first magnetometer sample changes the heading only.
+    After a loss the tilt is the accelerometer's; a first magnetometer sample changes the heading only, and that of a
+    method without magnetometer stays what it was.
     """
     if lost:
         attitude = shortest_turn(unit(rotate(attitude, sample.acc)), UP) * attitude
-    rest = resting_sample(attitude, declination)
-    return with_sensors(sample, sample.gyr, rest.acc, sample.mag if present(sample.mag) else rest.mag)
+    rest = resting_sample(attitude, guard.declination)
+    mag = sample.mag if guard.follows_mag and present(sample.mag) else rest.mag
+    return with_sensors(sample, sample.gyr, rest.acc, mag)
 
 
 @compiled

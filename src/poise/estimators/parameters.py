@@ -11,6 +11,8 @@ import numpy as np
 from poise.errors import MethodError
 from poise.math.compiled import Choice
 
+Interval = tuple[float, float] | None  # None stands for the whole range that the parameter is declared with
+
 
 class Parameter(NamedTuple):
     """One parameter of a method, as people are shown it.
@@ -70,11 +72,24 @@ def _checked(name: str, value: Any, parameter: Parameter) -> Any:
         if not isinstance(value, (bool, np.bool_)):
             raise MethodError(f"{name}: expected True or False, found {value!r}")
         return bool(value)
+    if parameter.kind == Interval:
+        return _interval(name, value, parameter)
     if parameter.kind in (int, float):
         return _number(name, value, parameter)
     if parameter.kind is Any or isinstance(value, type) or hasattr(value, "step"):  # a method inside a wrapper
         return prepared(value)
     return value
+
+
+def _interval(name: str, value: Any, parameter: Parameter) -> tuple[float, float]:
+    if value is None:
+        return parameter.low, parameter.high
+    if not isinstance(value, (tuple, list)) or len(value) != 2:
+        raise MethodError(f"{name}: expected two numbers ({parameter.unit}) or None, found {value!r}")
+    low, high = (float(_number(name, end, parameter)) for end in value)
+    if not low < high:
+        raise MethodError(f"{name}: expected the lower end first, found {value!r}")
+    return low, high
 
 
 def _number(name: str, value: Any, parameter: Parameter) -> float | int:

@@ -281,6 +281,12 @@ if not PLAIN_PYTHON:
             return lambda left, right: _code_of(left) == code  # type: ignore[call-arg]
         return None
 
+    @overload(operator.ne, prefer_literal=True)
+    def _(left, right):
+        if isinstance(left, _ChoiceType) and isinstance(right, types.StringLiteral):
+            return lambda left, right: not left == right  # noqa: SIM201
+        return None
+
 
 # ---------------------------------------------------------------------------------------------------------------------
 # Memory: state that stays on the compiled side between calls (boxing a State costs ~2 us per nested tuple)

@@ -147,13 +147,24 @@ def from_angles(angles: Angles) -> Quat:
 
 
 @compiled
+def pitch_of(acc: Vec3) -> float:
+    """θ of a resting sensor, rad."""
+    return asin(min(max(acc.y / norm(acc), -1.0), 1.0))
+
+
+@compiled
+def roll_of(acc: Vec3) -> float:
+    """γ of a resting sensor, rad."""
+    return atan2(-acc.x, acc.z)
+
+
+@compiled
 def angles_of(acc: Vec3, mag: Vec3) -> Angles:
     """Pitch, roll and magnetic heading of a resting sensor; heading 0 where mag says nothing.
 
     ``f = g (−sin γ cos θ, sin θ, cos γ cos θ)`` at rest.
     """
-    pitch = asin(min(max(acc.y / norm(acc), -1.0), 1.0))
-    roll = atan2(-acc.x, acc.z)
+    pitch, roll = pitch_of(acc), roll_of(acc)
     cp, sp, cr, sr = cos(pitch), sin(pitch), cos(roll), sin(roll)
     heading = atan2(cr * mag.x + sr * mag.z, sp * sr * mag.x + cp * mag.y - sp * cr * mag.z)
     return Angles(pitch, roll, heading if heading == heading else 0.0)
@@ -177,7 +188,7 @@ def attitude_of(acc: Vec3, mag: Vec3, declination: float) -> Quat:
     if declination != 0.0 and length > 0.0:
         cd, sd = cos(declination), sin(declination)
         ch, sh = ch * cd + sh * sd, sh * cd - ch * sd
-    pitch, roll, heading = _half(cp, sp), _half(cr, sr), _half(ch, sh)
+    pitch, roll, heading = half_turn(cp, sp), half_turn(cr, sr), half_turn(ch, sh)
     return Quat(
         heading.x * pitch.x * roll.x - heading.y * pitch.y * roll.y,
         heading.x * pitch.y * roll.x - heading.y * pitch.x * roll.y,
@@ -186,20 +197,20 @@ def attitude_of(acc: Vec3, mag: Vec3, declination: float) -> Quat:
     )
 
 
-class _CosSin(NamedTuple):
+class CosSin(NamedTuple):
     x: float
     y: float
 
 
 @compiled
-def _half(c: float, s: float) -> _CosSin:
+def half_turn(c: float, s: float) -> CosSin:
     """Cosine and sine of half the angle in (−π, π] that has cosine c and sine s."""
     if c >= 0.0:
         half = sqrt(0.5 + 0.5 * c)
-        return _CosSin(half, 0.5 * s / half)
+        return CosSin(half, 0.5 * s / half)
     half = sqrt(0.5 - 0.5 * c)
     half = -half if s < 0.0 else half
-    return _CosSin(0.5 * s / half, half)
+    return CosSin(0.5 * s / half, half)
 
 
 @compiled
@@ -227,4 +238,6 @@ def north_of(up: Vec3, mag: Vec3, declination: float) -> Vec3:
 @compiled
 def wrapped(angle: float) -> float:
     """The same angle in [−π, π]."""
+    if -pi <= angle <= pi:
+        return angle
     return (angle + pi) % (2.0 * pi) - pi
