@@ -32,6 +32,7 @@ GROUPS = (  # the benchmark's own, by the words in a trial's name
     "mixed",
 )
 ERRORS = ("total", "heading", "inclination")
+_FIGURES = ("mean", "groups", "trials")  # of a name in a stored table; what else is there are facts about it
 
 
 class Score(NamedTuple):
@@ -64,6 +65,11 @@ def score(attitude: Attitude, recording: Recording, has_heading: bool) -> Score:
     e = errors.inclination  # the heading drifts, and the total error with it: neither is divergence
     leaning = Errors(errors.time, e, errors.heading, e, errors.counted, errors.missing)
     return Score(None, None, rmse.inclination, leaning.diverged, errors.missing)
+
+
+def judged_by(trials: Mapping[str, Score], kind: str) -> bool:
+    """Whether an error of a method counts: a method whose heading no sensor gives has no total nor heading error."""
+    return any(getattr(s, kind) is not None for s in trials.values())
 
 
 def halves(trials: Iterable[str]) -> dict[str, list[str]]:
@@ -127,6 +133,12 @@ def load(path: Path) -> Scores:
     """A stored table."""
     methods = json.loads(path.read_text(encoding="utf-8"))["results"]
     return {name: {trial: Score(**s) for trial, s in entry["trials"].items()} for name, entry in methods.items()}
+
+
+def facts_of(path: Path) -> dict[str, dict[str, Any]]:
+    """What a stored table says of each name beside its errors."""
+    methods = json.loads(path.read_text(encoding="utf-8"))["results"]
+    return {name: {k: v for k, v in entry.items() if k not in _FIGURES} for name, entry in methods.items()}
 
 
 def document(scores: Scores, facts: Mapping[str, Any] | None = None) -> dict[str, Any]:

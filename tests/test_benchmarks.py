@@ -159,6 +159,28 @@ def test_figures_are_stored_and_read_back(tmp_path: Path, monkeypatch: pytest.Mo
     assert "| mean, chosen " in report
 
 
+def test_a_peer_is_compared_with_the_same_release_only(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(scores, "RESULTS", tmp_path)
+    trials = STORED["filter"]
+    worse = {name: s._replace(total=3.0) for name, s in trials.items()}
+    facts = {name: {"version": "1.0"} for name in ("vqf", "imufusion")}
+    accuracy.store("accuracy.json", scores.document(STORED))
+    accuracy.store("peers.json", scores.document({"vqf": trials, "imufusion": trials}, facts))
+
+    monkeypatch.setattr(accuracy, "installed", lambda package: "1.0")
+    assert accuracy.check(STORED, {"vqf": trials, "ahrs-ekf": trials, "imufusion": trials}) == 0
+    assert "ahrs-ekf is not in the stored table" in capsys.readouterr().err
+    assert accuracy.check(STORED, {"vqf": worse, "imufusion": trials}) == 1
+    assert "WORSE vqf on 01_a: 2.000° → 3.000° (+50.0%)" in capsys.readouterr().err
+    assert accuracy.check(STORED, {"vqf": trials}) == 0  # imufusion was left out
+
+    monkeypatch.setattr(accuracy, "installed", lambda package: "1.1" if package == "vqf" else "1.0")
+    assert accuracy.check(STORED, {"vqf": worse, "imufusion": trials}) == 0
+    assert "vqf: stored with release 1.0, measured with 1.1: not compared" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(("ci", "code"), [("", 0), ("true", 1)])
 def test_without_recordings_it_says_so(ci: str, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("POISE_DATA", str(tmp_path))

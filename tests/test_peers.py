@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import os
 from dataclasses import replace
+from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,6 +19,7 @@ from poise import Attitude, Flag, PoiseError, Recording, evaluate, read
 from poise import peers as peers_module
 from poise.errors import RecordingError
 from poise.peers import PEERS, chosen, installed, period, prepared
+from poise.peers.adapters import dip_deg
 from poise.peers.even import rising
 from poise.simulation import PERFECT, at_rest, forearm, measure, turned_about_up
 
@@ -68,6 +72,51 @@ def test_the_adapters_poses_are_what_their_names_say(name: str) -> None:
     time = np.arange(n) / 100.0
     made = Recording(time=time, gyr=np.zeros((n, 3)), acc=acc, mag=mag, truth=Attitude.of(time, quat))
     assert outcome(name, made)[-1] < 1.0
+
+
+def turned(axis: str, heading_deg: float, degrees: float) -> Recording:
+    """10 s level facing a compass heading, a turn about an axis of the body in 2 s, 10 s still; samples from the truth alone.
+
+    The body is x right, y forward, z up; the field points north and down by 60°.
+    """
+    n, rate = 2200, 100.0
+    time = np.arange(n) / rate
+    angle = np.radians(degrees) * np.clip((time - 10.0) / 2.0, 0.0, 1.0)
+    vector = np.eye(3)["xyz".index(axis)]
+    attitude = Rotation.from_euler("Z", -heading_deg, degrees=True) * Rotation.from_rotvec(angle[:, None] * vector)
+    body = attitude.inv()
+    return Recording(
+        time=time,
+        gyr=np.gradient(angle, time)[:, None] * vector,
+        acc=body.apply([0.0, 0.0, 9.80665]),
+        mag=body.apply([0.0, 25.0, -25.0 * np.sqrt(3.0)]),
+        truth=Attitude.of(time, wxyz(attitude)),
+    )
+
+
+@pytest.mark.parametrize("heading_deg", [0.0, 90.0, 215.0])
+@pytest.mark.parametrize("axis", ["x", "y", "z"])
+@pytest.mark.parametrize("name", PEERS)
+def test_a_turn_about_each_axis_from_a_known_heading(name: str, axis: str, heading_deg: float) -> None:
+    """Quaternion order, each axis's sign and the gyroscope's unit; imufusion alone starts from identity, and needs seconds."""
+    made = turned(axis, heading_deg, 70.0)
+    found = outcome(name, made)
+    assert made.truth is not None
+    assert np.degrees(made.truth.heading()[0]) % 360.0 == pytest.approx(heading_deg)
+    assert np.degrees(angle_between(made.truth.quat[1000], made.truth.quat[1200])) == pytest.approx(70.0)
+    assert found[800:1201].max() < 1.0
+    assert found[-1] < 1.0
+
+
+@pytest.mark.parametrize("axis", ["x", "y", "z"])
+@pytest.mark.parametrize("name", PEERS)
+def test_without_a_magnetometer_a_turn_is_as_long_as_it_was(name: str, axis: str) -> None:
+    made = without_mag(turned(axis, 90.0, 70.0))
+    attitude = present(name).attitude(made)
+    before, after = Rotation.from_quat(attitude.quat_xyzw[[1000, 1200]])
+    vector = np.degrees((before.inv() * after).as_rotvec())
+    np.testing.assert_allclose(vector, 70.0 * np.eye(3)["xyz".index(axis)], atol=4.0)
+    assert tilt_error(attitude, made)[:1201].max() < 4.0
 
 
 @pytest.mark.parametrize("name", PEERS)
@@ -285,6 +334,18 @@ def test_ten_rows_two_a_second_and_nonsense_are_no_tracebacks(name: str) -> None
     np.testing.assert_array_equal(attitude.valid, np.isfinite(attitude.quat).all(axis=1))
 
 
+@pytest.mark.parametrize("degrees", [-60.0, 0.0, 75.0])
+def test_the_dip_that_the_kalman_filter_is_told_is_the_recordings_own(degrees: float) -> None:
+    made = motion(10.0)
+    down, north = np.sin(np.radians(degrees)), np.cos(np.radians(degrees))
+    assert made.truth is not None
+    body = Rotation.from_quat(made.truth.quat_xyzw).inv()
+    made = replace(made, acc=body.apply([0.0, 0.0, 9.8]), mag=body.apply([0.0, 40.0 * north, -40.0 * down]))
+    made.mag[100:300] = 0.0  # silence
+    assert dip_deg(made) == pytest.approx(degrees, abs=0.01)
+    assert dip_deg(without_mag(made)) == 0.0
+
+
 # -- choosing ------------------------------------------------------------------------------------------------------------
 
 
@@ -294,12 +355,14 @@ def test_a_package_means_all_of_its_peers() -> None:
     assert list(chosen("vqf")) == ["vqf", "vqf-offline"]
     assert list(chosen(" ahrs-mahony, VQF-offline,imufusion ")) == ["ahrs-mahony", "vqf-offline", "imufusion"]
     assert list(chosen("vqf,imufusion,ahrs")) == list(PEERS)
-    assert list(chosen("ahrs-mahony,ahrs")) == ["ahrs-mahony", "ahrs-madgwick"]
+    assert list(chosen("ahrs-mahony,ahrs")) == ["ahrs-mahony", "ahrs-madgwick", "ahrs-ekf"]
 
 
 @pytest.mark.parametrize("words", ["madgwick", "vqf,sekf", "", " , "])
 def test_what_there_is_is_said_for_an_unknown_one(words: str) -> None:
-    with pytest.raises(PoiseError, match=r"vqf, vqf-offline, imufusion, ahrs-madgwick, ahrs-mahony, or by package"):
+    with pytest.raises(
+        PoiseError, match=r"vqf, vqf-offline, imufusion, ahrs-madgwick, ahrs-mahony, ahrs-ekf, or by package"
+    ):
         chosen(words)
 
 
@@ -311,11 +374,15 @@ def test_an_absent_package_is_said_with_the_way_to_get_it(monkeypatch: pytest.Mo
         PEERS["ahrs-mahony"].attitude(short(100))
 
 
-def test_provenance_says_which_release_ran() -> None:
+def test_provenance_says_which_release_ran_and_on_what() -> None:
     attitude = present("vqf-offline").attitude(replace(short(100), source="walk.csv"))
     assert attitude.provenance.method == f"vqf-offline {installed('vqf')}"
     assert attitude.provenance.source == "walk.csv"
     assert attitude.metadata()["poise.method"] == attitude.provenance.method
+    assert attitude.provenance.parameters == {"settings": PEERS["vqf-offline"].settings, "prepared": []}
+    uneven = short(100)[np.r_[0:50, 53:100]]
+    told = json.loads(PEERS["vqf-offline"].attitude(uneven).metadata()["poise.parameters"])["prepared"]
+    assert told == ["uneven stamps: gyr and acc interpolated to 100.0 even samples per second"]
 
 
 # -- real recordings -----------------------------------------------------------------------------------------------------
@@ -330,6 +397,31 @@ def test_a_real_uneven_recording_with_a_slower_magnetometer(name: str) -> None:
     other = PEERS["vqf-offline"].attitude(recording)
     tilt = np.degrees(angle_between(attitude.quat, other.quat))
     assert np.median(tilt) < 25.0  # the same frame: another one would be 90° or 180° away
+
+
+@pytest.mark.parametrize("name", PEERS)
+def test_every_file_with_every_fault_at_once_is_no_traceback_and_no_nan_unsaid(name: str) -> None:
+    peer = present(name)
+    for file in [*sorted(data_path("broad").glob("*.mat")), data_path("other", "x-io_fusion_sensor_data.csv")]:
+        for recording in faulty(file):
+            attitude = peer.attitude(recording)
+            known = np.isfinite(attitude.quat).all(axis=1)
+            np.testing.assert_array_equal(known, attitude.valid, err_msg=file.name)
+            assert 0.6 < known.mean() < 0.9, file.name
+            assert attitude.provenance.parameters["prepared"]
+
+
+@cache
+def faulty(file: Path) -> tuple[Recording, Recording]:
+    """The start of a file with rows, stamps and samples gone, as it is and without a magnetometer."""
+    whole = read(file)[:1500]
+    kept = np.sort(np.random.default_rng(0).choice(len(whole), 1200, replace=False))
+    time, gyr, acc, mag = (np.array(getattr(whole, field)[kept]) for field in ("time", "gyr", "acc", "mag"))
+    gyr[::50], acc[::70], mag[::3] = np.nan, np.nan, np.nan
+    gyr[500:850] = np.nan  # more than 1 s at every file's rate
+    mag[:50], time[100], time[200] = 0.0, time[99], np.nan
+    torn = Recording(time=time, gyr=gyr, acc=acc, mag=mag)
+    return torn, without_mag(torn)
 
 
 @pytest.mark.parametrize("name", ["vqf", "imufusion"])

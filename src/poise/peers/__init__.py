@@ -2,6 +2,7 @@
 
     for name, peer in chosen("vqf,imufusion").items():
         attitude = peer.attitude(recording)
+        attitude.provenance.parameters["prepared"]  # what was done to the recording first: a sentence each
 
 The extra ``peers`` brings the packages.
 """
@@ -42,7 +43,7 @@ class Peer(NamedTuple):
     """whether its heading comes from a magnetometer, where the recording has one"""
 
     def attitude(self, recording: Recording) -> Attitude:
-        """Its attitude on the rows of any recording, by way of :func:`prepared`, whose notes say what that did.
+        """Its attitude on the rows of any recording, by way of :func:`prepared`; its provenance holds the notes of that.
 
         Rows in gaps longer than 1 s are NaN and flagged LOST; after each gap the filter starts anew. Raises
         :class:`PoiseError` where the package is absent, :class:`RecordingError` for a recording it cannot run on.
@@ -50,7 +51,7 @@ class Peer(NamedTuple):
         release = installed(self.package)
         if release is None:
             raise PoiseError(f"{self.name} needs the package {self.package}, which is not installed: {_EXTRA}")
-        even = prepared(recording).recording
+        even, notes = prepared(recording)
         quat, flags = np.full((len(even), 4), np.nan), np.zeros(len(even), np.uint32)
         for piece in pieces(even):
             if piece.stop - piece.start >= FEWEST:
@@ -63,7 +64,10 @@ class Peer(NamedTuple):
             quat,
             heading_reference="magnetic" if heading else "arbitrary",
             provenance=Provenance(
-                f"{self.name} {release}", {"settings": self.settings}, recording.source, recording.source_hash
+                f"{self.name} {release}",
+                {"settings": self.settings, "prepared": list(notes)},
+                recording.source,
+                recording.source_hash,
             ),
         )
         attitude.flags[:] |= flags
@@ -94,6 +98,7 @@ PEERS: dict[str, Peer] = {
             adapters.ahrs_madgwick,
         ),
         Peer("ahrs-mahony", "ahrs", "k_P 1, k_I 0.3", adapters.ahrs_mahony),
+        Peer("ahrs-ekf", "ahrs", "default noises, the recording's own median dip", adapters.ahrs_ekf),
     )
 }
 

@@ -106,6 +106,39 @@ def ahrs_mahony(recording: Recording) -> Floats:
     return anew_at_first_field(recording, run)
 
 
+def ahrs_ekf(recording: Recording) -> Floats:
+    """Its extended Kalman filter, whose world is ENU and whose accelerometer measures gravity, not specific force.
+
+    The dip that it has to be told is the median one of the recording, since the place is not known.
+    """
+    from ahrs.filters import EKF
+
+    seconds = period(recording)
+
+    def run(part: Recording) -> Floats:
+        # It expects a field, or none, by its own `mag`, whatever update() is given: said row by row.
+        ekf = EKF(Dt=seconds, frame="ENU", magnetic_ref=dip_deg(part))
+        quat = np.empty((len(part), 4))
+        quat[0] = first_attitude(part)
+        heard = np.linalg.norm(part.mag, axis=1) > 0.0  # neither NaN nor silent
+        for i in range(1, len(part)):
+            ekf.mag = part.mag[i] if heard[i] else None
+            quat[i] = ekf.update(quat[i - 1], part.gyr[i], -part.acc[i], ekf.mag)
+        return quat
+
+    return anew_at_first_field(recording, run)
+
+
+def dip_deg(recording: Recording) -> float:
+    """The median angle of the field below the horizontal plane that the accelerometer shows; 0 without magnetometer."""
+    lengths = np.linalg.norm(recording.mag, axis=1) * np.linalg.norm(recording.acc, axis=1)
+    known = np.flatnonzero(lengths > 0.0)
+    if not len(known):
+        return 0.0
+    upward = np.sum(recording.mag[known] * recording.acc[known], axis=1) / lengths[known]
+    return float(np.degrees(np.median(np.arcsin(np.clip(-upward, -1.0, 1.0)))))
+
+
 def anew_at_first_field(recording: Recording, run: Callable[[Recording], Floats]) -> Floats:
     """What *run* gives, started anew where a late magnetometer sets in: from a wrong heading it would turn for minutes."""
     first = int(np.argmax(recording.mag.any(axis=1))) if recording.has_mag else 0
