@@ -58,7 +58,7 @@ def test_the_prints_kinematics_hold_near_level_only() -> None:
 
 
 def test_armband_starts_from_the_mean_of_a_rest() -> None:
-    noisy = replace(Sensor(), acc=Triad(noise=0.02), mag=Triad(noise=0.05))
+    noisy = replace(Sensor(), acc=Triad(noise=0.008), mag=Triad(noise=0.05))
     truth = wxyz(Rotation.from_euler("ZXY", [1.0, 0.3, -0.4]))
     errors = []
     for seed in range(20):
