@@ -1,4 +1,4 @@
-"""The measurements that the docs quote beside the accuracy table, each by its name.
+"""The measurements that the docs quote beside the accuracy table, each by its name; inclination for tilt and gated.
 
 python benchmarks/studies.py rates         mean error at 286, 95 and 48 samples a second
 python benchmarks/studies.py sensitivity   mean error with each parameter halved and doubled alone
@@ -49,6 +49,7 @@ def line(label: str, errors: dict[str, float]) -> str:
 def rates(trials: dict[str, Recording]) -> Iterator[str]:
     methods = {name: cls() for name, cls in poise.METHODS.items()}
     methods["two-stage, first-order"] = poise.TwoStage(transition="first-order")
+    methods["armband, euler"] = poise.Armband(kinematics="euler")
     for samples in (1, 3, 6):
         thinned = {name: block_means(recording, samples) for name, recording in trials.items()}
         for name, method in methods.items():
@@ -59,8 +60,11 @@ def rates(trials: dict[str, Recording]) -> Iterator[str]:
 
 def sensitivity(trials: dict[str, Recording]) -> Iterator[str]:
     varied = {
+        "armband": ("gyr_noise", "pitch_noise", "roll_noise", "heading_noise", "running_time", "error_time", "alpha"),
         "two-stage": ("gyr_noise", "acc_noise", "mag_noise", "motion_factor"),
         "adaptive-gain": ("k_rest", "k_fast", "threshold", "check_threshold", "k_forced", "check_window"),
+        "tilt": ("q_angle", "q_bias", "angle_noise", "initial_bias"),
+        "gated": ("gate_rate", "low_pass_time", "still_acc", "still_time"),
     }
     for name, parameters in varied.items():
         method = poise.METHODS[name]()
@@ -70,6 +74,10 @@ def sensitivity(trials: dict[str, Recording]) -> Iterator[str]:
                 changed = method._replace(**{parameter: factor * getattr(method, parameter)})
                 yield line(f"{name}, {parameter} × {factor:g}", totals(changed, trials))
     yield line("two-stage, decouple off", totals(poise.TwoStage(decouple=False), trials))
+    yield line("armband, α = β = ζ = 0", totals(poise.Armband(alpha=0.0, beta=0.0, zeta=0.0), trials))
+    yield line("armband, fixed R", totals(poise.Armband(r_mode="fixed"), trials))
+    yield line("armband, euler", totals(poise.Armband(kinematics="euler"), trials))
+    yield line("armband, as printed", totals(poise.Armband.as_printed(), trials))
 
 
 def lean(trials: dict[str, Recording]) -> Iterator[str]:

@@ -50,7 +50,6 @@ def adds_rates_to_angles(method: Any) -> bool:
     return getattr(method, "kinematics", "") == "small-angle"
 
 
-
 @cache
 def made(duration: float = 20.0, seed: int = 1, mag_rate: float | None = None) -> poise.Recording:
     """A forearm seen by an inexpensive sensor; small and the same every time."""

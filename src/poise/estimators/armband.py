@@ -59,7 +59,7 @@ class Prediction(NamedTuple):
 class Armband(NamedTuple):
     """Complementary Kalman filter: angles and rates, corrected by a weighted mean of gyroscope and acc/mag angles."""
 
-    gyr_noise: Annotated[float, "rad/s/√Hz", "gyroscope noise σ_g of every axis", (1e-9, 1e3)] = 0.003
+    gyr_noise: Annotated[float, "rad/s/√Hz", "gyroscope noise σ_g of every axis", (1e-9, 1e3)] = 0.004
     pitch_noise: Annotated[float, "rad/√Hz", "noise σ_cf of the measured pitch", (1e-9, 1e6)] = 0.1
     roll_noise: Annotated[float, "rad/√Hz", "noise σ_cf of the measured roll", (1e-9, 1e6)] = 0.1
     heading_noise: Annotated[float, "rad/√Hz", "noise σ_cf of the measured heading", (1e-9, 1e6)] = 0.25

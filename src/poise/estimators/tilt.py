@@ -76,7 +76,7 @@ class Tilt(NamedTuple):
     )
     angle_noise: Annotated[
         float, "rad/√Hz", "noise of the accelerometer's angle, with what motion adds", (1e-9, 1e3)
-    ] = 0.02
+    ] = 0.005
     least_noise: Annotated[float, "rad", "smallest standard deviation at rest that is believed", (1e-9, 1.0)] = 1e-4
     rest_acc: Annotated[float, "m/s²", "largest distance of a still specific force from its mean, per axis"] = 0.5
     rest_gyr: Annotated[float, "rad/s", "largest rate at rest"] = 0.05
