@@ -205,7 +205,7 @@ def test_real_recordings_with_no_options(
     assert [result["valid"] for result in results] == pytest.approx([1.0] * 4)
     kind = "total" if "declination" in poise.METHODS[method]._fields else "inclination"
     errors = [result["error_deg"][kind] for result in results[:3]]
-    assert errors[0] < 4.0
+    assert errors[0] < 8.0
     assert max(errors) < (45.0 if method == "tilt" else 20.0)  # fast motion is not what it is made for
     assert results[3]["error_deg"] is None
     assert len(list(tmp_path.glob("*.attitude.parquet"))) == 4
