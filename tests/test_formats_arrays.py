@@ -226,10 +226,11 @@ def test_mat_structs_and_names(tmp_path):
 
 
 def test_mat_child_keeps_its_hands_off_the_package(tmp_path):
-    from poise.formats import mat
+    from poise.formats import bounded, mat
 
+    limits = [str(1 << 30), "4"]
     listed = subprocess.run(
-        [sys.executable, "-P", "-X", "importtime", str(mat._CHILD), str(tmp_path / "none"), str(1 << 30), "4"],
+        [sys.executable, "-P", "-X", "importtime", bounded.CHILD, mat._SCRIPT, *limits, tmp_path / "none"],
         capture_output=True,
         check=False,
         text=True,
