@@ -79,7 +79,7 @@ def read(path: Path, options: Options) -> Table:
         f"the orientation in {imu.name} means nothing: {empty}"
         if empty
         else f"the orientation in {imu.name} is somebody's own estimate and ignored; compare with it: "
-        "--columns orientation=truth"
+        "--columns orientation=truth_quat"
     )
     return _table(where, bag.kind, values, units, age, options, notes, doubts)
 
