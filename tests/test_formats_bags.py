@@ -16,7 +16,7 @@ from made_bags import ACC, FIELD, GYR, IMU, MAG, QUAT, ROWS, START, TIME, VECTOR
 from poise.cli import run
 from poise.errors import FormatError
 from poise.formats import bag_library, bag_stamps, bag_topics, read, read_attitude, sniff, write
-from poise.formats.bag_topics import Topic
+from poise.formats.bag_topics import Topic, Unclear
 
 KINDS = ["bag", "mcap", "sqlite3", "bare-mcap", "bare-sqlite3"]
 
@@ -182,22 +182,22 @@ def test_an_orientation_is_a_reference(tmp_path: Path, capsys: pytest.CaptureFix
 def test_the_topic_is_chosen_or_asked_for() -> None:
     def chosen(*names: str, wanted: str = "", raw: bool = True) -> str:
         counts = {"slow": 10}
-        topics = [Topic(name, bag_library.IMU, counts.get(name.rpartition("_")[2], 1000)) for name in names]
-        return bag_topics.imu("a.bag", topics, wanted, raw=raw).name
+        topics = [Topic(name, IMU, counts.get(name.rpartition("_")[2], 1000)) for name in names]
+        return bag_topics.imu(topics, wanted, raw=raw).name
 
     assert chosen("/imu/data", "/imu/data_raw") == "/imu/data_raw"
     assert chosen("/imu/data", "/imu/data_raw", raw=False) == "/imu/data"
     assert chosen("/a/imu", "/b/imu", wanted="b/imu") == "/b/imu"
     for names in (("/a/imu", "/b/imu"), ("/a/imu", "/b/imu_raw"), ("/a/imu", "/a/imu_raw_slow"), ("/imu/a", "/imu/b")):
-        with pytest.raises(FormatError, match=rf"2 Imu topics: {names[0]} \(sensor_msgs/Imu, 1000\).*--topic {names[0]}"):
+        with pytest.raises(Unclear, match=rf"2 Imu topics: {names[0]} \(sensor_msgs/Imu, 1000\).*--topic {names[0]}"):
             chosen(*names)
-    with pytest.raises(FormatError, match=r"no topic '/c' of type sensor_msgs/Imu; there are /a/imu"):
+    with pytest.raises(Unclear, match=r"no topic '/c' of type sensor_msgs/Imu; there are /a/imu"):
         chosen("/a/imu", wanted="/c")
 
 
 def test_the_magnetometer_is_the_one_beside_the_unit() -> None:
     def chosen(*topics: tuple[str, str], wanted: str = "") -> str | None:
-        found = bag_topics.mag("a", [Topic(*t, 9) for t in topics], Topic("/a/imu/data_raw", IMU, 9), wanted)
+        found = bag_topics.mag([Topic(*t, 9) for t in topics], Topic("/a/imu/data_raw", IMU, 9), wanted)
         return found and found.name
 
     assert chosen() is None
@@ -206,7 +206,7 @@ def test_the_magnetometer_is_the_one_beside_the_unit() -> None:
     assert chosen(("/a/imu/magnetic", VECTOR), ("/a/imu/rpy", VECTOR), ("/a/image/x", VECTOR)) == "/a/imu/magnetic"
     assert chosen(("/a/imu/mag", FIELD), ("/a/imu/mag_raw", FIELD)) == "/a/imu/mag_raw"
     assert chosen(("/a/imu/mag", FIELD), wanted="-") is None
-    with pytest.raises(FormatError, match=r"2 magnetometers beside /a/imu/data_raw.*say which: --topic"):
+    with pytest.raises(Unclear, match=r"2 magnetometers beside /a/imu/data_raw.*say which: --topic"):
         chosen(("/a/imu/mag1", FIELD), ("/a/imu/mag2", FIELD))
 
 

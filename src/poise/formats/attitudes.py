@@ -32,7 +32,9 @@ def read_attitude(path: str | os.PathLike[str], *, topic: str | None = None, lim
     recognise.check(where, path, options.limits)
     kind = recognise.kind(where, path)
     if kind not in ("text", "parquet", *bag.KINDS):
-        raise FormatError(f"{where}: attitudes are read from Parquet, CSV, TUM text and ROS bags, this is a {kind} file")
+        raise FormatError(
+            f"{where}: attitudes are read from Parquet, CSV, TUM text and ROS bags, this is a {kind} file"
+        )
     try:
         if kind in bag.KINDS:
             time, quat, sigma = bag.orientation(path, options)

@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 from poise.data.recording import place
 from poise.errors import FormatError
 from poise.formats import bag_library, bag_stamps, bag_topics, bounded, names, recognise
-from poise.formats.bag_topics import Topic
 from poise.formats.held import fresh
-from poise.formats.limits import Options
+from poise.formats.limits import Limits, Options
 from poise.formats.names import QUAT
 from poise.formats.table import Floats, Table
 
@@ -29,14 +28,22 @@ _BASE, _GROWTH, _MOST = 2**30, 40, 8 * 2**30  # bytes of address space: the inte
 _SECONDS = 10  # s, plus one for every half megabyte: a slow machine decodes 3000 messages a second
 
 _ROTATION, _GYR, _ACC, _GYR_KNOWN, _ACC_KNOWN, _COVARIANCE = (*map(slice, (0, 4, 7), (4, 7, 10)), 10, 11, slice(12, 21))
-_FIELDS = {"stamp": "s", "angular_velocity": "rad/s", "linear_acceleration": "m/s²", "magnetic_field": "", "orientation": ""}
+_FIELDS = {
+    "stamp": "s",
+    "angular_velocity": "rad/s",
+    "linear_acceleration": "m/s²",
+    "magnetic_field": "",
+    "orientation": "",
+}
 _EARTH = (2e-6, 2e-3)  # T: lengths that a magnetometer near its motors and magnets may still have
 _CONSTANT = 1e-4  # relative spread of a length that a driver has set: every sensor is noisier
 
 
 class _Messages(NamedTuple):
-    """The messages of one topic in the order of arrival."""
+    """The messages of one topic in the order of arrival; at least one."""
 
+    topic: str
+    type: str
     received: NDArray[np.int64]
     """(n,) ns"""
     stamp: NDArray[np.int64]
@@ -45,43 +52,48 @@ class _Messages(NamedTuple):
     """(n, 3), or (n, 21) of an inertial unit"""
 
 
+class _Bag(NamedTuple):
+    """What was taken from a bag."""
+
+    kind: str
+    imu: _Messages
+    mag: _Messages | None
+    notes: list[str]
+    doubts: list[str]
+
+
 def read(path: Path, options: Options) -> Table:
     """The table in a bag: stamps, angular velocity, linear acceleration (specific force) and magnetic field.
 
     Raises :class:`FormatError` where the bag is damaged, holds no inertial unit or more than one.
     """
-    where, wanted = str(path), _wanted(options)
-    bag = _Bag(path, options)
-    topics = bag.topics()
-    imu = bag_topics.imu(where, topics, wanted[0])
-    mag = bag_topics.mag(where, topics, imu, wanted[1])
-    notes, doubts = [_told(topics, imu, mag)], list[str]()
-    messages = bag.messages(imu, doubts)
-    time, clock = bag_stamps.of_imu(imu.name, messages.received, messages.stamp, notes)
+    where, bag = str(path), _load(path, options, "recording")
+    imu, notes = bag.imu, bag.notes
+    time, clock = bag_stamps.of_imu(imu.topic, imu.received, imu.stamp, notes)
     values: dict[str, Floats] = {
         "stamp": time,
-        "angular_velocity": _present(messages.values[:, _GYR], messages.values[:, _GYR_KNOWN]),
-        "linear_acceleration": _present(messages.values[:, _ACC], messages.values[:, _ACC_KNOWN]),
+        "angular_velocity": _present(imu.values[:, _GYR], imu.values[:, _GYR_KNOWN]),
+        "linear_acceleration": _present(imu.values[:, _ACC], imu.values[:, _ACC_KNOWN]),
     }
-    for field in ("angular_velocity", "linear_acceleration"):
-        if not np.isfinite(values[field]).any():
-            raise FormatError(f"{where}: {imu.name} carries no {field}; poise needs both in one Imu topic")
-    quat, empty = _orientation(messages.values)
+    for name in ("angular_velocity", "linear_acceleration"):
+        if not np.isfinite(values[name]).any():
+            raise FormatError(f"{where}: {imu.topic} carries no {name}; poise needs both in one Imu topic")
+    quat, empty = _orientation(imu.values)
     if not empty:
         values["orientation"] = quat
     elif "orientation=" in str(options.columns):
-        raise FormatError(f"{where}: the orientation in {imu.name} means nothing: {empty}")
-    units, age = dict(_FIELDS), None
-    if mag is not None:
-        field, units["magnetic_field"], age = _magnetometer(bag, mag, time, clock, notes, doubts)
-        values["magnetic_field"] = field
+        raise FormatError(f"{where}: the orientation in {imu.topic} means nothing: {empty}")
+    units: dict[str, str] = dict(_FIELDS)
+    age: Floats | None = None
+    if bag.mag is not None:
+        values["magnetic_field"], units["magnetic_field"], age = _magnetometer(bag.mag, time, clock, notes)
     notes.append(
-        f"the orientation in {imu.name} means nothing: {empty}"
+        f"the orientation in {imu.topic} means nothing: {empty}"
         if empty
-        else f"the orientation in {imu.name} is somebody's own estimate and ignored; compare with it: "
+        else f"the orientation in {imu.topic} is somebody's own estimate and ignored; compare with it: "
         "--columns orientation=truth_quat"
     )
-    return _table(where, bag.kind, values, units, age, options, notes, doubts)
+    return _table(where, bag, values, units, age, options)
 
 
 def orientation(path: Path, options: Options) -> tuple[Floats, Floats, Floats]:
@@ -89,79 +101,60 @@ def orientation(path: Path, options: Options) -> tuple[Floats, Floats, Floats]:
 
     Raises :class:`FormatError` where they mean nothing.
     """
-    where = str(path)
-    bag = _Bag(path, options)
-    imu = bag_topics.imu(where, bag.topics(), _wanted(options)[0], raw=False)
-    messages = bag.messages(imu, [])
-    quat, empty = _orientation(messages.values)
+    where, imu = str(path), _load(path, options, "orientation").imu
+    quat, empty = _orientation(imu.values)
     if empty:
-        raise FormatError(f"{where}: no attitude: the orientation in {imu.name} means nothing: {empty}")
-    variance = messages.values[:, _COVARIANCE][:, [0, 4, 8]]
+        raise FormatError(f"{where}: no attitude: the orientation in {imu.topic} means nothing: {empty}")
+    variance: Floats = imu.values[:, _COVARIANCE][:, [0, 4, 8]]
     with np.errstate(invalid="ignore"):
-        sigma = np.sqrt(np.where((variance > 0).all(axis=1)[:, None], variance, np.nan))
+        sigma = np.sqrt(np.where(np.min(variance, axis=1, keepdims=True) > 0, variance, np.nan))
     sigma[~np.isfinite(quat[:, 0])] = np.nan
-    return bag_stamps.of_imu(imu.name, messages.received, messages.stamp, [])[0], quat, sigma
+    return bag_stamps.of_imu(imu.topic, imu.received, imu.stamp, [])[0], quat, sigma
 
 
-class _Bag:
-    """A bag that is read by a bounded child process."""
-
-    def __init__(self, path: Path, options: Options) -> None:
-        self.where, self.path, self.limits = str(path), path, options.limits
-        self.kind = recognise.kind(self.where, path)
-        if bag_library.missing():
-            install = 'pip install "poise[ros]"'
-            raise FormatError(f"{self.where}: reading a {_NAMES[self.kind]} needs rosbags; install it with: {install}")
-
-    def topics(self) -> list[Topic]:
-        """Every topic, connections of one name and type together."""
-        found = self._ask("topics")
-        counts: dict[tuple[str, str], int] = {}
-        for name, kind, count in zip(found["topic"], found["type"], found["count"], strict=True):
-            counts[str(name), str(kind)] = counts.get((str(name), str(kind)), 0) + int(count)
-        return [Topic(*key, count) for key, count in counts.items()]
-
-    def messages(self, topic: Topic, doubts: list[str]) -> _Messages:
-        """The messages of *topic*; at least one."""
-        self.limits.check(self.where, "rows", topic.count)
-        found = self._ask("messages", topic.name, topic.type, str(self.limits.rows))
-        messages = _Messages(found["received"], found["stamp"], found["values"])
-        if not len(messages.received):
-            raise FormatError(f"{self.where}: {topic.name} should have {topic.count} messages, found none; {self._fix}")
-        if (n := len(messages.received)) != topic.count:
-            doubts.append(f"{topic.name}: the bag's index promises {topic.count} messages, {n} were found")
-        return messages
-
-    def _ask(self, work: str, *arguments: str) -> dict[str, NDArray[Any]]:
-        size = sum(file.stat().st_size for file in recognise.files(self.path))
-        try:
-            return bounded.arrays(
-                self.where,
-                Path(bag_library.__file__),
-                [work, self.kind, str(self.path.absolute()), *arguments],
-                memory=min(_BASE + _GROWTH * size, _MOST),
-                seconds=_SECONDS + size // 500_000,
-                limits=self.limits,
-            )
-        except bounded.ChildFailure as problem:
-            kind = _NAMES[self.kind]
-            raise FormatError(f"{self.where}: {kind} that cannot be read ({problem}); {self._fix}") from None
-
-    @property
-    def _fix(self) -> str:
-        return _REPAIR[self.kind]
-
-
-def _wanted(options: Options) -> tuple[str, str]:
-    """The topics that the caller names: "IMU" or "IMU,MAG"."""
+def _load(path: Path, options: Options, what: str) -> _Bag:
+    """The inertial unit's messages and, for a "recording", the magnetometer's, from a bounded child process."""
+    where, limits, kind = str(path), options.limits, recognise.kind(str(path), path)
+    if bag_library.missing():
+        install = 'pip install "poise[ros]"'
+        raise FormatError(f"{where}: reading a {_NAMES[kind]} needs rosbags; install it with: {install}")
+    size = sum(file.stat().st_size for file in recognise.files(path))
     imu, _, mag = (options.topic or "").partition(",")
-    return imu.strip(), mag.strip()
+    try:
+        found = bounded.arrays(
+            where,
+            Path(bag_library.__file__),
+            [what, kind, str(path.absolute()), imu.strip(), mag.strip(), str(limits.rows)],
+            memory=min(_BASE + _GROWTH * size, _MOST),
+            seconds=_SECONDS + size // 500_000,
+            limits=limits,
+        )
+    except bounded.ChildFailure as problem:
+        raise FormatError(f"{where}: {_NAMES[kind]} that cannot be read ({problem}); {_REPAIR[kind]}") from None
+    if "refused" in found:
+        raise FormatError(f"{where}: {found['refused']}")
+    doubts: list[str] = []
+    taken = {
+        name: _taken(where, kind, name, found, limits, doubts) for name in ("imu", "mag") if f"{name}_topic" in found
+    }
+    told = f"topic {taken['imu'].topic}" + (f", magnetometer {taken['mag'].topic}" if "mag" in taken else "")
+    if len(left := found["left"]):
+        told += f"; left out {names.listed([str(name) for name in left])}"
+    return _Bag(kind, taken["imu"], taken.get("mag"), [told], doubts)
 
 
-def _told(topics: list[Topic], imu: Topic, mag: Topic | None) -> str:
-    left = [t.name for t in topics if t.type == bag_library.IMU and t.name != imu.name]
-    told = f"topic {imu.name}" + (f", magnetometer {mag.name}" if mag else "")
-    return told + (f"; left out {names.listed(left)}" if left else "")
+def _taken(
+    where: str, kind: str, name: str, found: dict[str, NDArray[Any]], limits: Limits, doubts: list[str]
+) -> _Messages:
+    topic, msgtype = map(str, found[f"{name}_topic"])
+    promised = int(found[f"{name}_promised"])
+    limits.check(where, "rows", promised)
+    messages = _Messages(topic, msgtype, *(found[f"{name}_{column}"] for column in ("received", "stamp", "values")))
+    if not len(messages.stamp):
+        raise FormatError(f"{where}: {topic} should have {promised} messages, found none; {_REPAIR[kind]}")
+    if len(messages.stamp) != promised:
+        doubts.append(f"{topic}: the bag's index promises {promised} messages, {len(messages.stamp)} were found")
+    return messages
 
 
 def _present(vectors: Floats, covariance: Floats) -> Floats:
@@ -191,43 +184,35 @@ def _orientation(values: Floats) -> tuple[Floats, str]:
 
 
 def _magnetometer(
-    bag: _Bag, topic: Topic, rows: Floats, clock: bag_stamps.Clock, notes: list[str], doubts: list[str]
+    mag: _Messages, rows: Floats, clock: bag_stamps.Clock, notes: list[str]
 ) -> tuple[Floats, str, Floats]:
     """Its field (n, 3) on the inertial unit's *rows*, the unit ("" for none), and the ages (n,) s of its samples."""
-    messages = bag.messages(topic, doubts)
-    field = messages.values
-    time = bag_stamps.of_other(topic.name, messages.received, messages.stamp, clock, notes)
+    field = mag.values
+    time = bag_stamps.of_other(mag.topic, mag.received, mag.stamp, clock, notes)
     if held := fresh(field):
         field = np.where(held[0][:, None], field, np.nan)
-        notes.append(f"mag: {topic.name} repeats each sample {held[1]} times; the repeats are left out")
+        notes.append(f"mag: {mag.topic} repeats each sample {held[1]} times; the repeats are left out")
     clean = np.where(np.isfinite(rows), rows, -np.inf)
     rising = np.flatnonzero(clean > np.concatenate([[-np.inf], np.maximum.accumulate(clean)[:-1]]))
     placed, age = np.full((len(rows), 3), np.nan), np.zeros(len(rows))
-    placed[rising], age[rising] = place(topic.name, rows[rising], time, field)
-    if topic.type != bag_library.FIELD:
+    placed[rising], age[rising] = place(mag.topic, rows[rising], time, field)
+    if mag.type != bag_topics.FIELD:
         return placed, "", age
     length = np.sqrt(np.einsum("ij,ij->i", field, field))
     length = length[np.isfinite(length)]
     median = float(np.median(length)) if len(length) else 0.0
     decade = 10.0 ** np.rint(np.log10(median)) if median > 0 else 0.0
     if decade and np.ptp(length) < _CONSTANT * median and abs(median / decade - 1) < _CONSTANT:
-        notes.append(f"mag: every sample of {topic.name} has length {decade:g}: a direction that its driver normalised")
+        notes.append(f"mag: every sample of {mag.topic} has length {decade:g}: a direction that its driver normalised")
         return placed, "", age
     if len(length) and not _EARTH[0] <= median <= _EARTH[1]:
-        notes.append(f"mag: {topic.name} should be in T, but its median length {median:.3g} is no field of the Earth's")
+        notes.append(f"mag: {mag.topic} should be in T, but its median length {median:.3g} is no field of the Earth's")
         return placed, "", age
     return placed, "T", age
 
 
 def _table(
-    where: str,
-    kind: str,
-    values: dict[str, Floats],
-    units: dict[str, str],
-    age: Floats | None,
-    options: Options,
-    notes: list[str],
-    doubts: list[str],
+    where: str, bag: _Bag, values: dict[str, Floats], units: dict[str, str], age: Floats | None, options: Options
 ) -> Table:
     columns: dict[str, Floats] = {}
     titles = names.renamed(where, list(values), options.columns, len(values))
@@ -243,4 +228,4 @@ def _table(
     layout = names.choose(where, list(columns))
     found = list(columns.values())
     used = {key: np.array(found[column.index]) for key, column in layout.columns.items()}
-    return Table(_NAMES[kind], layout, used, {}, None, "", notes, doubts)
+    return Table(_NAMES[bag.kind], layout, used, {}, None, "", bag.notes, bag.doubts)

@@ -16,10 +16,11 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-IMU, FIELD, VECTOR = "sensor_msgs/msg/Imu", "sensor_msgs/msg/MagneticField", "geometry_msgs/msg/Vector3Stamped"
-_TYPES = (IMU, FIELD, VECTOR)
-_MOST_TOPICS, _LONGEST_NAME = 1000, 200
-_UNKNOWN, _ABSENT = [0.0] * 9, [-1.0] + [0.0] * 8  # ROS's words for a covariance that is not known, a value that is none
+_IMU = "sensor_msgs/msg/Imu"
+_UNKNOWN, _ABSENT = (
+    [0.0] * 9,
+    [-1.0] + [0.0] * 8,
+)  # ROS's words for a covariance that is not known, a value that is none
 
 
 def missing() -> bool:
@@ -32,13 +33,33 @@ def missing() -> bool:
 # -- reading, in the child --------------------------------------------------------------------------------------------
 
 
-def load(work: str, kind: str, path: str, *arguments: str) -> dict[str, Any]:
-    """What a bag holds ("topics"), or the messages of a topic as columns ("messages", topic, type, most rows)."""
+def load(what: str, kind: str, path: str, imu: str, mag: str, most: str) -> dict[str, Any]:
+    """The messages of a bag's inertial unit, and of its magnetometer if *what* is "recording" and not "orientation".
+
+    *imu* and *mag* are the topics that the caller names, or ""; above *most* messages a topic is only counted. "refused"
+    in the answer is why no topic could be chosen. Raises anything where the bag is damaged.
+    """
+    import runpy
+
+    import numpy as np
+
+    choose = runpy.run_path(str(Path(__file__).with_name("bag_topics.py")))  # by path, as this script is
     with _opened(kind, path) as reader:
-        if work == "topics":
-            return _topics(reader)
-        topic, kind_of_message, most = arguments
-        return _messages(reader, kind, topic, kind_of_message, int(most))
+        topics = choose["topics"]((c.topic, c.msgtype, c.msgcount) for c in reader.connections)
+        try:
+            unit = choose["imu"](topics, imu, raw=what == "recording")
+            field = choose["mag"](topics, unit, mag) if what == "recording" else None
+        except choose["Unclear"] as problem:
+            return {"refused": np.array(str(problem))}
+        left = [topic.name for topic in topics if topic.type == unit.type and topic.name != unit.name]
+        answer: dict[str, Any] = {"left": np.array(left, dtype="U200")}
+        chosen = {name: topic for name, topic in (("imu", unit), ("mag", field)) if topic is not None}
+        for name, topic in chosen.items():
+            answer |= {f"{name}_topic": np.array(topic[:2]), f"{name}_promised": np.array(topic.messages)}
+        if all(topic.messages <= int(most) for topic in chosen.values()):
+            for name, columns in _messages(reader, kind, chosen, int(most)).items():
+                answer |= {f"{name}_{column}": values for column, values in columns.items()}
+        return answer
 
 
 @contextmanager
@@ -60,52 +81,46 @@ def _opened(kind: str, path: str) -> Iterator[Any]:
         reader.close()
 
 
-def _topics(reader: Any) -> dict[str, Any]:
+def _messages(reader: Any, kind: str, chosen: dict[str, Any], most: int) -> dict[str, dict[str, Any]]:
     import numpy as np
 
-    found = reader.connections[:_MOST_TOPICS]
-    return {
-        "topic": np.array([str(c.topic)[:_LONGEST_NAME] for c in found], dtype=f"U{_LONGEST_NAME}"),
-        "type": np.array([str(c.msgtype)[:_LONGEST_NAME] for c in found], dtype=f"U{_LONGEST_NAME}"),
-        "count": np.array([min(int(c.msgcount), 2**62) for c in found], dtype=np.int64),
-    }
-
-
-def _messages(reader: Any, kind: str, topic: str, msgtype: str, most: int) -> dict[str, Any]:
-    import numpy as np
-
-    chosen = [c for c in reader.connections if c.topic == topic and c.msgtype == msgtype]
-    decode = _decoder(kind, chosen, msgtype)
-    fields: Callable[[Any], tuple[float, ...]] = _imu if msgtype == IMU else _field if msgtype == FIELD else _vector
-    received, stamps, values = array("q"), array("q"), array("d")
-    for _, time, raw in reader.messages(chosen):
+    connections = [c for c in reader.connections if (c.topic, c.msgtype) in {topic[:2] for topic in chosen.values()}]
+    decode = _decoder(kind, connections)
+    taken = {topic[:2]: (array("q"), array("q"), array("d")) for topic in chosen.values()}
+    for connection, time, raw in reader.messages(connections):
+        received, stamps, values = taken[connection.topic, connection.msgtype]
         if len(received) >= most:
-            raise ValueError(f"{topic} has more messages than the {most} its index names")
-        message = decode(raw, msgtype)
+            raise ValueError(f"{connection.topic} has more messages than the limit of {most}")
+        message = decode(raw, connection.msgtype)
         stamp = message.header.stamp
         received.append(time)
         stamps.append(stamp.sec * 10**9 + stamp.nanosec)
-        values.extend(fields(message))
-    rows = np.frombuffer(values) if len(values) else np.empty(0)
-    return {
-        "received": np.array(received, dtype=np.int64),
-        "stamp": np.array(stamps, dtype=np.int64),
-        "values": rows.reshape(len(received), -1 if len(received) else 0),
-    }
+        values.extend(_FIELDS[connection.msgtype](message))
+    found = {}
+    for name, topic in chosen.items():
+        received, stamps, values = taken[topic[:2]]
+        rows = np.array(values, dtype=np.float64).reshape(len(received), -1 if len(received) else 0)
+        found[name] = {
+            "received": np.array(received, dtype=np.int64),
+            "stamp": np.array(stamps, dtype=np.int64),
+            "values": rows,
+        }
+    return found
 
 
-def _decoder(kind: str, connections: list[Any], msgtype: str) -> Any:
-    """The function that decodes *msgtype*; raises ValueError where the bag's own definition of it is another one."""
+def _decoder(kind: str, connections: list[Any]) -> Any:
+    """The function that decodes a message; raises ValueError where the bag's own definition of its type is another one."""
     from rosbags.typesys import Stores, get_typestore
 
     store = get_typestore(Stores.ROS1_NOETIC if kind == "ros1" else Stores.ROS2_HUMBLE)
-    known = store.generate_msgdef(msgtype)[1] if kind == "ros1" else store.hash_rihs01(msgtype)
     for connection in connections:
+        name = connection.msgtype
+        known = store.generate_msgdef(name)[1] if kind == "ros1" else store.hash_rihs01(name)
         encoding = getattr(connection.ext, "serialization_format", "cdr")
         if encoding != "cdr":
             raise ValueError(f"{connection.topic} is encoded as {encoding[:40]!r}, expected cdr")
         if connection.digest and connection.digest not in ("*", known):
-            raise ValueError(f"{connection.topic}: its {msgtype} is not the one that ROS defines")
+            raise ValueError(f"{connection.topic}: its {name} is not the one that ROS defines")
     return store.deserialize_ros1 if kind == "ros1" else store.deserialize_cdr
 
 
@@ -121,6 +136,13 @@ def _field(m: Any) -> tuple[float, ...]:
 
 def _vector(m: Any) -> tuple[float, ...]:
     return (m.vector.x, m.vector.y, m.vector.z)
+
+
+_FIELDS: dict[str, Callable[[Any], tuple[float, ...]]] = {
+    "sensor_msgs/msg/Imu": _imu,
+    "sensor_msgs/msg/MagneticField": _field,
+    "geometry_msgs/msg/Vector3Stamped": _vector,
+}
 
 
 # -- writing ----------------------------------------------------------------------------------------------------------
@@ -153,9 +175,9 @@ def write_imu(path: Path, kind: str, rows: ImuRows, topic: str, frame_id: str, f
         for key, value in facts.items():
             writer.set_custom_data(key, value)
     with writer:
-        connection = writer.add_connection(topic, IMU, typestore=store)
+        connection = writer.add_connection(topic, _IMU, typestore=store)
         for stamp, message in _written(store.types, rows, frame_id, seq=kind == "bag"):
-            writer.write(connection, stamp, encode(message, IMU))
+            writer.write(connection, stamp, encode(message, _IMU))
 
 
 def _written(types: Any, rows: ImuRows, frame_id: str, *, seq: bool) -> Iterator[tuple[int, Any]]:
@@ -177,4 +199,4 @@ def _written(types: Any, rows: ImuRows, frame_id: str, *, seq: bool) -> Iterator
             covariance = np.diag(variance).reshape(9)
         orientation = types["geometry_msgs/msg/Quaternion"](x=x, y=y, z=z, w=w)
         (rate, rate_known), (force, force_known) = vector(gyr), vector(acc)
-        yield stamp, types[IMU](header, orientation, covariance, rate, rate_known, force, force_known)
+        yield stamp, types[_IMU](header, orientation, covariance, rate, rate_known, force, force_known)

@@ -16,7 +16,9 @@ from poise.formats.assemble import Sniffed, assemble
 from poise.formats.limits import Limits, Options
 
 _DEFAULT = Limits()
-_READERS = {"text": text.read, "parquet": parquet.read, "npz": npz.read, "mat": mat.read} | dict.fromkeys(bag.KINDS, bag.read)
+_READERS = {"text": text.read, "parquet": parquet.read, "npz": npz.read, "mat": mat.read} | dict.fromkeys(
+    bag.KINDS, bag.read
+)
 
 
 def read(
@@ -34,7 +36,8 @@ def read(
 
     *columns* names the columns where the file does not, in order (``"time,gx,gy,gz,ax,ay,az"``, ``-`` skips one) or
     one by one (``"their_name=gyr_x"``); *units* says what the file does not (``{"gyr": "deg/s", "acc": "g"}``); *rate*
-    (1/s) replaces the stamps; *topic* picks a bag's inertial unit, or both (``"/imu/data_raw,/imu/mag"``). Everything that was assumed or left out is in ``Recording.notes``.
+    (1/s) replaces the stamps; *topic* picks a bag's inertial unit, or both (``"/imu/data_raw,/imu/mag"``). Everything
+    that was assumed or left out is in ``Recording.notes``.
 
     Raises :class:`FormatError` with the line, the column and what to do.
     """

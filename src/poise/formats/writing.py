@@ -21,7 +21,15 @@ from poise.formats.npz import FACTS
 from poise.formats.saving import replacing
 from poise.formats.units import SI
 
-_SUFFIXES = {".parquet": "parquet", ".csv": "csv", ".tum": "tum", ".txt": "tum", ".npz": "npz", ".bag": "bag", ".mcap": "mcap"}
+_SUFFIXES = {
+    ".parquet": "parquet",
+    ".csv": "csv",
+    ".tum": "tum",
+    ".txt": "tum",
+    ".npz": "npz",
+    ".bag": "bag",
+    ".mcap": "mcap",
+}
 _KINDS = {Attitude: ("parquet", "csv", "tum", *bag_writing.KINDS), Recording: ("parquet", "csv", "npz")}
 _BLOCK = 65_536  # rows
 
@@ -36,8 +44,9 @@ def write(
     """Write an attitude (Parquet, CSV, TUM, ROS bag) or a recording (Parquet, CSV, npz); returns the path.
 
     The format is *format* or follows from the extension; "bag" is ROS 1, "mcap" one file and "ros2" a folder of ROS 2,
-    which take the angular velocity and linear acceleration of the attitude's *recording* along. Raises :class:`FormatError` where it does not fit or the
-    file cannot be written; then nothing is left behind and what stood there before still stands.
+    which take the angular velocity and linear acceleration of the attitude's *recording* along.
+    Raises :class:`FormatError` where it does not fit or the file cannot be written; then nothing is left behind and what
+    stood there before still stands.
     """
     path = Path(path)
     allowed = next((kinds for kind, kinds in _KINDS.items() if isinstance(thing, kind)), None)
