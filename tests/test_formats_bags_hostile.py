@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import sqlite3
 import struct
@@ -154,7 +155,7 @@ CASES: dict[str, tuple[Callable[[Path], Path], str]] = {
     "metadata without a bag": (_folder(lambda path: (path / "metadata.yaml").write_text("a: 1")), "cannot be read"),
     "files missing": (_folder(lambda path: next(path.glob("*.mcap")).unlink()), "cannot be read .*missing"),
     "unknown storage": (_edited("storage_identifier: mcap", "storage_identifier: tape"), "'tape' not supported"),
-    "a folder in the folder": (_folder(lambda path: (path / "more").mkdir()), "more in it is a folder"),
+    "a pipe in the folder": (_folder(lambda path: os.mkfifo(path / "more")), "more in it is a device or pipe"),
     "empty ROS 1 bag": (lambda folder: save(folder / "a.bag", []), "no sensor_msgs/Imu message.*no topic at all"),
     "empty MCAP": (lambda folder: save(folder / "a.mcap", [], "bare-mcap"), "no sensor_msgs/Imu message.*no topic at"),
     "no Imu": (

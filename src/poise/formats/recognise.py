@@ -70,7 +70,9 @@ def check(where: str, path: Path, limits: Limits) -> None:
 
 def files(path: Path) -> list[Path]:
     """The files that make up *path*: itself, or those in a ROS 2 bag's folder in order of their names."""
-    return sorted(path.iterdir()) if (path / _METADATA).exists() else [path]
+    if not (path / _METADATA).exists():
+        return [path]
+    return sorted(part for part in path.iterdir() if not part.is_dir())
 
 
 def kind(where: str, path: Path) -> str:
