@@ -7,12 +7,24 @@ after this file was first finished, unless the comment says otherwise).
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
 Floats = NDArray[np.float64]
+
+
+class Answer(NamedTuple):
+    """What a method says, a row for every sample; None where it says nothing or it is not worked out here."""
+
+    quat: Floats
+    sigma: Floats | None = None
+    bias: Floats | None = None
+    bias_sigma: Floats | None = None
+
 
 UP = np.array([0.0, 0.0, 1.0])
 NORTH = np.array([0.0, 1.0, 0.0])
@@ -150,8 +162,8 @@ def two_stage(
     declination: float,
     gravity: float,
     level: str = "turn",
-) -> Floats:
-    """Quaternions (n, 4); *level* is how the heading of x⁻ is kept, see :func:`levelled`."""
+) -> Answer:
+    """*level* is how the heading of x⁻ is kept, see :func:`levelled`."""
     eye = np.eye(4)
     x = start_attitude(acc[0], mag[0], declination)
     # Open: what P0 is. The accelerometer's variance about east and north and the magnetometer's about up, as densities
@@ -199,7 +211,7 @@ def two_stage(
             p = (eye - k2 @ h2) @ p @ (eye - k2 @ h2).T + k2 @ r2 @ k2.T
         x = x / np.linalg.norm(x)
         quats.append(x)
-    return continuous(quats)
+    return Answer(continuous(quats))
 
 
 # -- 3. adaptive_gain --------------------------------------------------------------------------------------------------
@@ -231,8 +243,7 @@ def adaptive_gain(
     k_forced: float,
     gravity: float,
     declination: float,
-) -> Floats:
-    """Quaternions (n, 4)."""
+) -> Answer:
     q = start_attitude(acc[0], mag[0], declination)
     # Open: what "still" is. The rate is small; specific force and field direction are close, axis by axis, to means with
     # a time constant of 0.5 s; all of that for rest_time. A sensor without a sample does not object.
@@ -315,4 +326,4 @@ def adaptive_gain(
         q = product(q, turn(w_c * dt))
         q = q / np.linalg.norm(q)
         quats.append(q)
-    return continuous(quats)
+    return Answer(continuous(quats))
