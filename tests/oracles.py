@@ -1,8 +1,9 @@
-"""Two methods a second time: plain numpy, written from their specification and not from the package.
+"""The methods a second time: plain numpy, written from their specification and not from the package.
 
 Everything is spelled out the textbook way (4×4 matrices, ``np.linalg.inv``, scipy for Euler angles) and slow. Where the
 specification leaves a choice open, a comment that begins with "Open:" says which one is taken here (the package's, read
-after this file was first finished, unless the comment says otherwise).
+after this file was first finished, unless the comment says otherwise). Here are what all of them use, two_stage and
+adaptive_gain; the others are in oracles_euler.py and oracles_gated.py.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ class Answer(NamedTuple):
     sigma: Floats | None = None
     bias: Floats | None = None
     bias_sigma: Floats | None = None
+    rate: Floats | None = None
 
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -63,7 +65,7 @@ def angles_of(q: Floats) -> Floats:
     return Rotation.from_quat(q[[1, 2, 3, 0]]).as_euler("ZXY")
 
 
-def tilt(f: Floats) -> tuple[float, float]:
+def tilt_of(f: Floats) -> tuple[float, float]:
     """(pitch, roll), rad, of a resting accelerometer."""
     return float(np.arcsin(f[1] / np.linalg.norm(f))), float(np.arctan2(-f[0], f[2]))
 
@@ -81,7 +83,7 @@ def known(v: Floats) -> bool:
 
 def start_attitude(f: Floats, m: Floats, declination: float) -> Floats:
     """The attitude by the first sample; heading 0 without a magnetometer."""
-    pitch, roll = tilt(f)
+    pitch, roll = tilt_of(f)
     return from_angles(pitch, roll, true_heading(pitch, roll, m, declination) if known(m) else 0.0)
 
 
@@ -131,6 +133,11 @@ def about_up(x: Floats) -> Floats:
     return earth_turns(x)[:, 2] / np.linalg.norm(x)
 
 
+def about_earth(x: Floats, p: Floats) -> Floats:
+    """Standard deviations about the Earth's axes, at most half a turn, of a quaternion with covariance p."""
+    return np.minimum(2.0 * np.sqrt(np.maximum(np.diag(earth_turns(x).T @ p @ earth_turns(x)), 0.0)), np.pi)
+
+
 def levelled(x: Floats, f: Floats, how: str) -> Floats:
     """The accelerometer's tilt with the heading of x.
 
@@ -139,7 +146,7 @@ def levelled(x: Floats, f: Floats, how: str) -> Floats:
     """
     x = x / np.linalg.norm(x)
     if how == "angles":
-        return from_angles(*tilt(f), angles_of(x)[0])
+        return from_angles(*tilt_of(f), angles_of(x)[0])
     up = matrix(x) @ f / np.linalg.norm(f)
     axis, angle = cross(up, UP), np.arccos(np.clip(up @ UP, -1.0, 1.0))
     length = np.linalg.norm(axis)
@@ -170,7 +177,7 @@ def two_stage(
     # averaged over 0.01 s; ½ turns rotation vectors into quaternions.
     sigma0 = np.array([acc_noise / gravity, acc_noise / gravity, mag_noise]) / np.sqrt(0.01)
     p = 0.25 * earth_turns(x) @ np.diag(sigma0**2) @ earth_turns(x).T
-    quats = [x]
+    quats, sigmas = [x], [about_earth(x, p)]
     for i in range(1, len(time)):
         dt = time[i] - time[i - 1]
         f, m = acc[i], mag[i]
@@ -186,7 +193,7 @@ def two_stage(
         q_level = levelled(x, f, level)
         q_am = q_level
         if known(m):
-            q_am = from_angles(*tilt(f), true_heading(*tilt(f), m, declination))
+            q_am = from_angles(*tilt_of(f), true_heading(*tilt_of(f), m, declination))
         q_am = q_am if q_am @ x >= 0 else -q_am
         # 4. stage 1, accelerometer. Open: t of `decouple` is taken at the estimate that the stage starts from; without
         # `decouple` the Joseph form is the short one, since the gain is then the optimal one.
@@ -211,7 +218,8 @@ def two_stage(
             p = (eye - k2 @ h2) @ p @ (eye - k2 @ h2).T + k2 @ r2 @ k2.T
         x = x / np.linalg.norm(x)
         quats.append(x)
-    return Answer(continuous(quats))
+        sigmas.append(about_earth(x, p))
+    return Answer(continuous(quats), np.array(sigmas))
 
 
 # -- 3. adaptive_gain --------------------------------------------------------------------------------------------------

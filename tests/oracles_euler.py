@@ -1,21 +1,21 @@
-"""The three methods whose states are angles, or that rebuild from them, a second time. As in tests/oracles.py."""
+"""The two methods whose states are angles, armband and tilt, a second time; as oracles.py says."""
 
 from __future__ import annotations
 
 import numpy as np
+import scipy.linalg
 
 from oracles import (
-    UP,
     Answer,
     Floats,
     angles_of,
     continuous,
-    cross,
     from_angles,
     known,
     matrix,
     product,
-    tilt as tilt_of,
+    start_attitude,
+    tilt_of,
     true_heading,
     turn,
 )
@@ -47,11 +47,11 @@ def folds(x: Floats) -> bool:
     return bool(abs(wrap(x[PITCH])) > np.pi / 2)
 
 
-def rate_map(x: Floats) -> Floats:
-    """M: (θ', γ', ψ') = M w."""
+def rate_map(x: Floats, least_cosine: float = 0.02) -> Floats:
+    """J: (θ', γ', ψ') = J w. Open: how far cos θ is kept from 0."""
     st, ct, sg, cg = np.sin(x[PITCH]), np.cos(x[PITCH]), np.sin(x[ROLL]), np.cos(x[ROLL])
-    if abs(ct) < 1e-3:
-        ct = np.copysign(1e-3, ct)
+    if abs(ct) < least_cosine:
+        ct = np.copysign(least_cosine, ct)
     pitch = np.array([cg, 0.0, sg])
     heading = np.array([-sg, 0.0, cg]) / ct
     roll = np.array([0.0, 1.0, 0.0]) - st * heading
@@ -105,43 +105,49 @@ def armband(
 
     # 1. start
     x = np.zeros(6)
-    x[:3] = triple(start_attitude_of(acc[0], mag[0], declination))
+    x[:3] = triple(start_attitude(acc[0], mag[0], declination))
     x[3:] = gyr[0]
-    starting = bool((np.abs(gyr[0]) <= rest_gyr).all())
-    sigma0 = [initial_tilt, initial_tilt, initial_heading] if starting else [wide] * 3
-    p = np.diag([*np.square(sigma0), 0.0, 0.0, 0.0])
-    mean_f, mean_m, mean_w, n = acc[0], mag[0], gyr[0], 1
+    starting = True
+    p = np.diag([wide**2] * 3 + [0.0] * 3)
+    fs, ms, ws = [acc[0]], [mag[0] / np.linalg.norm(mag[0])] if known(mag[0]) else [], [gyr[0]]
     variance = np.zeros(3)
 
-    quats, sigmas = [quaternion(x)], [about_earth(x, p[:3, :3])]
+    quats, sigmas, rates = [], [], []
+
+    def say() -> None:
+        quats.append(quaternion(x))
+        sigmas.append(about_earth(x, p[:3, :3]))
+        rates.append(x[3:].copy())
+
+    say()
     for i in range(1, len(time)):
         dt = time[i] - time[i - 1]
         w, f, m = gyr[i], acc[i], mag[i]
 
         if starting:
-            starting = bool(time[i] - time[0] <= start_time and (np.abs(w) <= rest_gyr).all())
-            if starting and known(f):
-                starting = bool((np.abs(f - mean_f) <= rest_acc).all())
-            if starting and known(m) and known(mean_m):
-                apart = m / np.linalg.norm(m) - mean_m / np.linalg.norm(mean_m)
-                starting = bool((np.abs(apart) <= rest_mag).all())
+            starting = time[i] - time[0] < start_time and bool((np.abs([w, w - np.mean(ws, axis=0)]) <= rest_gyr).all())
+            if known(f):
+                starting &= bool((np.abs(f - np.mean(fs, axis=0)) <= rest_acc).all())
+            if known(m) and ms:
+                starting &= bool((np.abs(m / np.linalg.norm(m) - np.mean(ms, axis=0)) <= rest_mag).all())
         if starting:
-            n += 1
-            mean_w = mean_w + (w - mean_w) / n
-            mean_f = mean_f + (f - mean_f) / n if known(f) else mean_f
-            mean_m = mean_m + (m - mean_m) / n if known(m) else mean_m
-            x[:3] = triple(start_attitude_of(mean_f, mean_m, declination))
-            x[3:] = mean_w
-            quats.append(quaternion(x))
-            sigmas.append(about_earth(x, p[:3, :3]))
+            ws.append(w)
+            fs += [f] if known(f) else []
+            ms += [m / np.linalg.norm(m)] if known(m) else []
+            mean_m = np.mean(ms, axis=0) if ms else np.full(3, np.nan)
+            x[:3] = triple(start_attitude(np.mean(fs, axis=0), mean_m, declination))
+            x[3:] = np.mean(ws, axis=0)
+            if time[i] - time[0] >= 0.1:
+                p = np.diag([initial_tilt**2, initial_tilt**2, initial_heading**2, 0.0, 0.0, 0.0])
+            say()
             continue
 
         # 2., 3. predict
         x[3:] = w
         p[3:, :] = p[:, 3:] = 0.0
-        rates = np.eye(3) if kinematics == "small-angle" else rate_map(x)
-        phi = np.block([[np.eye(3), dt * rates], [np.zeros((3, 3)), np.eye(3)]])
-        gamma = np.vstack([dt * rates, np.eye(3)])
+        j = np.eye(3) if kinematics == "small-angle" else rate_map(x)
+        phi = np.block([[np.eye(3), dt * j], [np.zeros((3, 3)), np.eye(3)]])
+        gamma = np.vstack([dt * j, np.eye(3)])
         q_noise = gyr_noise**2 / dt * np.eye(3)
         if kinematics == "exact":
             turned = triple(product(quaternion(x), turn(w * dt)))
@@ -154,22 +160,16 @@ def armband(
         if kinematics != "small-angle":
             x, p = folded(x, p)
 
-        # 4. measurement
-        rows, measured = [], np.zeros(3)
-        if known(f):
-            measured[:2] = tilt_of(f)
-            rows += [PITCH, ROLL]
-        else:
-            measured[:2] = x[:2]
-        if known(m):
-            measured[HEADING] = true_heading(measured[PITCH], measured[ROLL], m, declination)
-            rows += [HEADING]
-        else:
-            measured[HEADING] = x[HEADING]
-        apart = wrap(measured - x[:3])
-        apart_other = wrap(other_triple(measured) - x[:3])
-        if np.abs(apart_other).sum() < np.abs(apart).sum():
-            apart = apart_other
+        # 4. measurement. Open: what of it there is without an accelerometer (nothing) or a magnetometer (two rows of H).
+        if not known(f):
+            say()
+            continue
+        rows = [PITCH, ROLL, HEADING] if known(m) else [PITCH, ROLL]
+        pitch, roll = tilt_of(f)
+        measured = np.array([pitch, roll, true_heading(pitch, roll, m, declination) if known(m) else x[HEADING]])
+        # Open: what is "nearer". The smaller sum of absolute differences of the angles that were measured.
+        apart, other = wrap(measured - x[:3]), wrap(other_triple(measured) - x[:3])
+        apart = min(apart, other, key=lambda differences: np.abs(differences[rows]).sum())
         z = weights * x[:3] + (1 - weights) * (x[:3] + apart)
         innovation = z - h @ x
         if r_mode == "running":
@@ -181,21 +181,14 @@ def armband(
             r = np.diag(floor) / dt
 
         # 5. update
-        if rows:
-            hr, rr = h[rows], r[np.ix_(rows, rows)]
-            k = p @ hr.T @ np.linalg.inv(hr @ p @ hr.T + rr)
-            x = x + k @ innovation[rows]
-            p = (eye - k @ hr) @ p
-            if kinematics != "small-angle":
-                x, p = folded(x, p)
-        quats.append(quaternion(x))
-        sigmas.append(about_earth(x, p[:3, :3]))
-    return Answer(continuous(quats), np.array(sigmas))
-
-
-def start_attitude_of(f: Floats, m: Floats, declination: float) -> Floats:
-    pitch, roll = tilt_of(f)
-    return from_angles(pitch, roll, true_heading(pitch, roll, m, declination) if known(m) else 0.0)
+        hr, rr = h[rows], r[np.ix_(rows, rows)]
+        k = p @ hr.T @ np.linalg.inv(hr @ p @ hr.T + rr)
+        x = x + k @ innovation[rows]
+        p = (eye - k @ hr) @ p
+        if kinematics != "small-angle":
+            x, p = folded(x, p)
+        say()
+    return Answer(continuous(quats), np.array(sigmas), rate=np.array(rates))
 
 
 def folded(x: Floats, p: Floats) -> tuple[Floats, Floats]:
@@ -234,8 +227,8 @@ def tilt(
     h = np.array([[1.0, 0.0]])
     xs = [np.array([angle, 0.0]) for angle in tilt_of(acc[0])]
     ps = [np.diag([initial_angle**2, initial_bias**2]) for _ in xs]
-    mean_f, rest_mean, rest_var, rest_n = acc[0], np.array(tilt_of(acc[0])), np.zeros(2), 0
-    rest_noise = np.full(2, np.nan)
+    mean_f, rested = acc[0], 0.0
+    rests: list[list[tuple[float, float, float]]] = [[]]
 
     quats, sigmas, biases, bias_sigmas = [], [], [], []
 
@@ -244,10 +237,12 @@ def tilt(
         quats.append(quaternion(angles))
         p = np.diag([ps[0][0, 0], ps[1][0, 0], 0.0])
         sigmas.append([*about_earth(angles, p)[:2], np.pi])
-        rates = rate_map(angles)[:2] if kinematics == "euler" else np.eye(3)[:2]
-        body = np.linalg.pinv(rates)
-        biases.append(body @ [xs[0][1], xs[1][1]])
-        bias_sigmas.append(np.sqrt(np.diag(body @ np.diag([ps[0][1, 1], ps[1][1, 1]]) @ body.T)))
+        # Open: the bias in the body frame, and that of the rate which turns neither angle, of which nothing is learned.
+        j = rate_map(angles, 1e-12)[:2] if kinematics == "euler" else np.eye(3)[:2]
+        body, blind = np.linalg.pinv(j), scipy.linalg.null_space(j)
+        p = body @ np.diag([ps[PITCH][1, 1], ps[ROLL][1, 1]]) @ body.T + initial_bias**2 * blind @ blind.T
+        biases.append(body @ [xs[PITCH][1], xs[ROLL][1]])
+        bias_sigmas.append(np.sqrt(np.diag(p)))
 
     say()
     for i in range(1, len(time)):
@@ -263,32 +258,40 @@ def tilt(
         fold_tilt(xs, ps, kinematics)
         if known(f):
             z = np.array(tilt_of(f))
+            # Open: what rest is, and what its variance is made of. The rate is small and the specific force close, axis
+            # by axis, to a mean with a time constant of 0.5 s. All rests, each about its own mean; angle_noise until
+            # there were 0.5 s of it. Every sample by its dt.
             mean_f = mean_f + dt / (0.5 + dt) * (f - mean_f)
-            still = np.linalg.norm(w) <= rest_gyr and (np.abs(f - mean_f) <= rest_acc).all()
-            if still:
-                rest_n += 1
-                step = wrap(z - rest_mean)
-                rest_mean = rest_mean + step / rest_n
-                rest_var = rest_var + (step * wrap(z - rest_mean) - rest_var) / rest_n
-                rest_noise = np.maximum(rest_var, least_noise**2)
+            if np.linalg.norm(w) < rest_gyr and (np.abs(f - mean_f) <= rest_acc).all():
+                rests[-1].append((dt, *z))
+                rested += dt
+            elif rests[-1]:
+                rests.append([])
             variance = np.full(2, angle_noise**2 / dt)
-            if r == "rest" and rest_n > 1:
-                variance = rest_noise
-            apart = np.array([wrap(z[axis] - xs[axis][0]) for axis in (PITCH, ROLL)])
-            flipped = np.array([wrap(np.pi - z[0] - xs[0][0]), wrap(z[1] + np.pi - xs[1][0])])
-            if np.abs(flipped).sum() < np.abs(apart).sum():
-                apart = flipped
+            if r == "rest" and rested > 0.5:
+                variance = np.maximum(pooled(rests), least_noise**2)
+            apart = wrap(z - [xs[PITCH][0], xs[ROLL][0]])
             for axis in (PITCH, ROLL):
                 x, p = xs[axis], ps[axis]
+                # Open: the preset ratio is per second (the package's account says so); P by the Joseph form.
+                k = p @ h.T @ np.linalg.inv(h @ p @ h.T + variance[axis])
                 if gain == "fixed":
-                    xs[axis] = x + np.array([ratio * dt * apart[axis], 0.0])
-                    continue
-                k = p @ h.T @ np.linalg.inv(h @ p @ h.T + variance[axis] * np.eye(1))
+                    k = np.array([[min(ratio * dt, 1.0)], [0.0]])
                 xs[axis] = x + k[:, 0] * apart[axis]
-                ps[axis] = (np.eye(2) - k @ h) @ p
+                ps[axis] = (np.eye(2) - k @ h) @ p @ (np.eye(2) - k @ h).T + variance[axis] * k @ k.T
             fold_tilt(xs, ps, kinematics)
         say()
     return Answer(continuous(quats), np.array(sigmas), np.array(biases), np.array(bias_sigmas))
+
+
+def pooled(rests: list[list[tuple[float, float, float]]]) -> Floats:
+    """Variances of pitch and roll, each rest's about its own mean."""
+    squares, seconds = np.zeros(2), 0.0
+    for rest in filter(None, rests):
+        dt, z = np.array(rest)[:, 0], np.unwrap(np.array(rest)[:, 1:], axis=0)
+        squares += dt @ (z - np.average(z, axis=0, weights=dt)) ** 2
+        seconds += dt.sum()
+    return squares / seconds
 
 
 def fold_tilt(xs: list[Floats], ps: list[Floats], kinematics: str) -> None:
@@ -296,61 +299,3 @@ def fold_tilt(xs: list[Floats], ps: list[Floats], kinematics: str) -> None:
     if kinematics == "euler" and folds(np.array([xs[0][0]])):
         xs[0] = np.array([wrap(np.pi - xs[0][0]), -xs[0][1]])
         xs[1] = np.array([wrap(xs[1][0] + np.pi), xs[1][1]])
-
-
-# -- 5. gated ----------------------------------------------------------------------------------------------------------
-
-
-def gated(
-    time: Floats,
-    gyr: Floats,
-    acc: Floats,
-    mag: Floats,
-    *,
-    rotation_gate: str,
-    gate_rate: float,
-    gate_vector: float,
-    low_pass: str,
-    low_pass_time: float,
-    alpha: float,
-    pitch_window: tuple[float, float] | None,
-    rebuild: str,
-    still_gate: bool,
-    still_acc: float,
-    still_time: float,
-    gravity: float,
-) -> Answer:
-    q = from_angles(*tilt_of(acc[0]), 0.0)
-    g, still = acc[0], 0.0
-    low, high = pitch_window or (-89.0, 89.0)
-    quats = [q]
-    for i in range(1, len(time)):
-        dt = time[i] - time[i - 1]
-        w, f = gyr[i], acc[i]
-        # 1. integrate
-        rot_v = turn(w * dt)
-        q = product(q, rot_v)
-        q = q / np.linalg.norm(q)
-        # 3. low-pass
-        if known(f):
-            keep = alpha if low_pass == "per-sample" else low_pass_time / (low_pass_time + dt)
-            g = keep * g + (1 - keep) * f
-            still = still + dt if abs(np.linalg.norm(f) - gravity) < still_acc else 0.0
-        # 2. gates
-        if rotation_gate == "rate":
-            opened = np.linalg.norm(w) < gate_rate
-        else:
-            opened = np.linalg.norm(rot_v[1:]) < gate_vector
-        opened &= low < np.degrees(triple(q)[PITCH]) < high
-        opened &= not still_gate or still >= still_time
-        if opened and known(f):
-            if rebuild == "euler":
-                q = from_angles(*tilt_of(g), angles_of(q)[0])
-            else:
-                up = matrix(q) @ g / np.linalg.norm(g)
-                axis = cross(up, UP)
-                length = np.linalg.norm(axis)
-                if length > 0.0:
-                    q = product(turn(axis / length * np.arctan2(length, up @ UP)), q)
-        quats.append(q)
-    return Answer(continuous(quats))
