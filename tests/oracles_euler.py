@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.linalg
 
 from oracles import (
     Answer,
     Floats,
     angles_of,
     continuous,
+    cross,
     from_angles,
     known,
     matrix,
@@ -103,7 +103,8 @@ def armband(
     weights = np.array([alpha, beta, zeta])
     floor = np.array([pitch_noise, roll_noise, heading_noise]) ** 2
 
-    # 1. start
+    # 1. start. Open: P0 is the wide one until there were 0.1 s of rest; what rest is (every sensor close, axis by axis, to
+    # its mean so far, and the rate small); a field's mean is that of its directions.
     x = np.zeros(6)
     x[:3] = triple(start_attitude(acc[0], mag[0], declination))
     x[3:] = gyr[0]
@@ -150,6 +151,7 @@ def armband(
         gamma = np.vstack([dt * j, np.eye(3)])
         q_noise = gyr_noise**2 / dt * np.eye(3)
         if kinematics == "exact":
+            # Open: that the turn went past ±90°, for the signs of P: where the other triple is nearer to where it began.
             turned = triple(product(quaternion(x), turn(w * dt)))
             back = other_triple(turned)
             crossed = np.abs(wrap(back - x[:3])).sum() < np.abs(wrap(turned - x[:3])).sum()
@@ -173,6 +175,7 @@ def armband(
         z = weights * x[:3] + (1 - weights) * (x[:3] + apart)
         innovation = z - h @ x
         if r_mode == "running":
+            # Open: the running variance is the mean square, from 0, with this sample in it; R the larger of the two.
             share = dt / (running_time + dt)
             for row in rows:
                 variance[row] += share * (innovation[row] ** 2 - variance[row])
@@ -239,8 +242,8 @@ def tilt(
         sigmas.append([*about_earth(angles, p)[:2], np.pi])
         # Open: the bias in the body frame, and that of the rate which turns neither angle, of which nothing is learned.
         j = rate_map(angles, 1e-12)[:2] if kinematics == "euler" else np.eye(3)[:2]
-        body, blind = np.linalg.pinv(j), scipy.linalg.null_space(j)
-        p = body @ np.diag([ps[PITCH][1, 1], ps[ROLL][1, 1]]) @ body.T + initial_bias**2 * blind @ blind.T
+        body, blind = j.T @ np.linalg.inv(j @ j.T), cross(j[0], j[1]) / np.linalg.norm(cross(j[0], j[1]))
+        p = body @ np.diag([ps[PITCH][1, 1], ps[ROLL][1, 1]]) @ body.T + initial_bias**2 * np.outer(blind, blind)
         biases.append(body @ [xs[PITCH][1], xs[ROLL][1]])
         bias_sigmas.append(np.sqrt(np.diag(p)))
 
@@ -255,7 +258,7 @@ def tilt(
         for axis in (PITCH, ROLL):
             xs[axis] = a @ xs[axis] + b * u[axis]
             ps[axis] = a @ ps[axis] @ a.T + q
-        fold_tilt(xs, ps, kinematics)
+        fold_tilt(xs, kinematics)  # "fold as above": as armband does, before anything is compared with the measurement
         if known(f):
             z = np.array(tilt_of(f))
             # Open: what rest is, and what its variance is made of. The rate is small and the specific force close, axis
@@ -279,7 +282,7 @@ def tilt(
                     k = np.array([[min(ratio * dt, 1.0)], [0.0]])
                 xs[axis] = x + k[:, 0] * apart[axis]
                 ps[axis] = (np.eye(2) - k @ h) @ p @ (np.eye(2) - k @ h).T + variance[axis] * k @ k.T
-            fold_tilt(xs, ps, kinematics)
+            fold_tilt(xs, kinematics)
         say()
     return Answer(continuous(quats), np.array(sigmas), np.array(biases), np.array(bias_sigmas))
 
@@ -294,7 +297,7 @@ def pooled(rests: list[list[tuple[float, float, float]]]) -> Floats:
     return squares / seconds
 
 
-def fold_tilt(xs: list[Floats], ps: list[Floats], kinematics: str) -> None:
+def fold_tilt(xs: list[Floats], kinematics: str) -> None:
     """The other pair of angles past ±90° of pitch; the pitch then runs the other way, and so does its bias."""
     if kinematics == "euler" and folds(np.array([xs[0][0]])):
         xs[0] = np.array([wrap(np.pi - xs[0][0]), -xs[0][1]])

@@ -15,7 +15,7 @@ import oracles_euler
 import oracles_gated
 import poise
 from data_files import data_path
-from helpers import Floats, angle_between
+from helpers import angle_between
 from poise.estimators.parameters import parameters
 from poise.simulation import Sensor, forearm, measure, phone
 
@@ -38,13 +38,13 @@ def recording(name: str) -> poise.Recording:
     """
     if name not in ("real", "wild"):
         kind, _, even = name.partition("-")
-        motion = {"forearm": forearm, "phone": phone}[kind](20.0, 100.0, seed=3)
+        motion = {"forearm": forearm, "phone": phone}[kind](12.0, 100.0, seed=3)
         return measure(motion, Sensor(jitter=0.0) if even else Sensor(), seed=4)
     whole = poise.read(data_path("broad", "21_undisturbed_fast_combined.mat"))
     assert whole.moving is not None
     first = whole.time[np.argmax(whole.moving)] + (-3.0 if name == "real" else 40.0)
     whole = whole[(whole.time >= first) & np.isfinite(whole.acc + whole.mag).all(axis=1)]
-    return whole.between(whole.time[0], whole.time[0] + 10.0)
+    return whole.between(whole.time[0], whole.time[0] + 8.0)
 
 
 def seen_by(method: Any, name: str) -> poise.Recording:
@@ -126,31 +126,43 @@ COMBINED = [
 START = "Armband's start is not the mean of its samples where these are unequally spaced: the first counts too much"
 STEADY = "Gated counts only the rows that have an accelerometer sample towards still_time"
 FOLD = "Tilt compares the measured angles with a predicted pitch past ±90° before it folds: roll is off by half a turn"
+
+
+def wrong(reason: str) -> pytest.MarkDecorator:
+    return pytest.mark.xfail(raises=AssertionError, strict=True, reason=reason)
+
+
 DEFECTS = [
-    pytest.param(poise.Armband(), lambda: recording("forearm"), id="jitter", marks=pytest.mark.xfail(reason=START)),
-    pytest.param(poise.Armband(), lambda: every(recording("real"), acc=3), id="acc", marks=pytest.mark.xfail(reason=START)),
-    pytest.param(poise.Armband(), lambda: every(recording("real"), mag=4), id="mag", marks=pytest.mark.xfail(reason=START)),
-    pytest.param(poise.Gated(), lambda: every(recording("real"), acc=3), id="still", marks=pytest.mark.xfail(reason=STEADY)),
-    pytest.param(poise.Tilt(q_scaling="print"), lambda: recording("real"), id="fold", marks=pytest.mark.xfail(reason=FOLD)),
+    pytest.param(poise.Armband(), lambda: recording("forearm"), id="jitter", marks=wrong(START)),
+    pytest.param(poise.Armband(), lambda: every(recording("real"), acc=3), id="acc", marks=wrong(START)),
+    pytest.param(poise.Armband(), lambda: every(recording("real"), mag=4), id="mag", marks=wrong(START)),
+    pytest.param(poise.Gated(), lambda: every(recording("real"), acc=3), id="still", marks=wrong(STEADY)),
+    pytest.param(poise.Tilt(q_scaling="print"), lambda: recording("real"), id="fold", marks=wrong(FOLD)),
 ]
 
+# Where there is no heading the package gives it a variance of 1e9 rad² instead of two rows to H: the same up to P²/1e9,
+# 2.6e-9 rad of sigma with the default `wide`.
 SLOWER = [
     poise.TwoStage(),
     poise.AdaptiveGain(),
-    poise.Armband(start_time=0.0),
-    poise.Armband(start_time=0.0, r_mode="fixed", kinematics="euler"),
+    poise.Armband(start_time=0.0, wide=0.2),
+    poise.Armband(start_time=0.0, wide=0.2, r_mode="fixed", kinematics="euler"),
     poise.Tilt(),
     poise.Tilt(gain="fixed"),
     poise.Gated(still_gate=False),
     poise.Gated.as_printed(),
 ]
 
+EVERY_CHOICE = [
+    (method, name)
+    for method in METHODS
+    for name in ("forearm", "real")
+    if (method, name) != (poise.Tilt(q_scaling="print"), "real")  # among DEFECTS
+]
 
-@pytest.mark.parametrize("name", ["forearm", "real"])
-@pytest.mark.parametrize("method", METHODS, ids=label)
+
+@pytest.mark.parametrize(("method", "name"), EVERY_CHOICE, ids=label)
 def test_every_choice(method: Any, name: str) -> None:
-    if (method, name) == (poise.Tilt(q_scaling="print"), "real"):
-        pytest.skip("in test_the_specification_says_otherwise")
     assert disagreement(method, seen_by(method, name)) < TOLERANCE
 
 
