@@ -5,6 +5,7 @@ python benchmarks/limits.py METHOD...     RMSE, degrees: total, or inclination o
 acc        gravity alone, seen from the reference
 mag        a level field to the north, as long as the trial's, seen from the reference
 scale      the gyroscope without its scale and misalignment errors, fitted to the reference's turns of one second
+           (poorly where the trial hardly turns: 11, 15, 25, 27)
 bias       the gyroscope without its mean bias in motion, from the same fit, in place of RestBias
 gyr        the reference's own turns as rates, without RestBias
 gyr+acc    both: what is left is the magnetometer's, and the method's own
