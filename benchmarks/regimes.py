@@ -67,7 +67,6 @@ def tilt(trials: Trials) -> Iterator[Table]:
     choices = {
         "tilt": poise.Tilt(),
         "fixed ratio": poise.Tilt(gain="fixed"),
-        "and RestBias": poise.RestBias(poise.Tilt(gain="fixed")),
         "gated": poise.Gated(),
         "two-stage": poise.TwoStage(),
         "adaptive-gain": poise.AdaptiveGain(),

@@ -97,8 +97,8 @@ class Tilt(NamedTuple):
 
     @property
     def learns_bias(self) -> bool:
-        """It does, in motion too: RestBias would take from it what it is to find."""
-        return True
+        """With the Kalman gain, in motion too: RestBias would take from it what it is to find."""
+        return self.gain == "kalman"
 
     @classmethod
     def as_printed(cls) -> Self:
