@@ -1,0 +1,222 @@
+"""Stretches of time in which an attitude is far from the others, or from the reference, and what explains them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from poise.data.attitude import Attitude
+from poise.data.flags import SENTENCES, Flag
+from poise.data.recording import Recording
+from poise.evaluation import Errors
+
+Floats = NDArray[np.float64]
+Rows = NDArray[np.intp]
+
+BRIDGE = 1.0  # s: departures less far apart are one
+SHORTEST = 0.5  # s: a shorter one is not told
+SETTLING = 10.0  # s: a departure that begins with the attitude and is over by then is its start
+_BEFORE = 2.0  # s before a stretch in which an event (a restart, a gap) may have caused it
+_SHARE = 0.2  # of a stretch's rows that have to carry a flag for it to explain the stretch
+_LIFT = 1.5  # … and so many times more often than the rest of the recording, if that carries it too
+_FIELD, _FORCE, _FAST = 0.15, 0.2, 300.0  # of its usual strength, g RMS, °/s: what is told of the sensors
+_MAINLY = 2.0  # times the other part of the error
+
+_EVENTS = (Flag.RESET, Flag.GAP, Flag.TIME_DISORDER, Flag.LOST, Flag.SILENT, Flag.CORRECTION_FORCED)
+_OF_HEADING = (Flag.MAG_MISSING, Flag.HEADING_ARBITRARY)
+_OF_INCLINATION = (Flag.ACC_MISSING, Flag.ACC_DOUBTED)
+
+Part = Literal["heading", "inclination", "heading and inclination"]
+
+
+class Stretch(NamedTuple):
+    """One estimator away from the reference, or from what the others agree on, for a while."""
+
+    estimator: str
+    start: float
+    """s, as the recording's stamps"""
+    end: float
+    """s"""
+    part: Part
+    """what is off"""
+    median_deg: float
+    peak_deg: float
+    heading_deg: float | None
+    """median; None for an estimator without a heading of its own"""
+    inclination_deg: float
+    """median"""
+    others_within: int
+    """how many of the other estimators stay within the limit for most of it"""
+    others: int
+    reasons: tuple[str, ...]
+    """sentences of the attitude's own flags that explain it"""
+    sensors: tuple[str, ...]
+    """what the sensors measured meanwhile that is out of the ordinary"""
+
+    @property
+    def severity(self) -> float:
+        """degree-seconds, by which stretches are ranked."""
+        return self.median_deg * max(self.end - self.start, 0.0)
+
+
+class Judged(NamedTuple):
+    """An attitude with its errors, as stretches are looked for in it."""
+
+    attitude: Attitude
+    errors: Errors
+    heading: bool
+    """whether its heading counts"""
+
+    @property
+    def angle(self) -> Floats:
+        """(n,) rad: the total error, or the inclination's where that is all that counts."""
+        return self.errors.total if self.heading else self.errors.inclination
+
+
+def stretches(recording: Recording, judged: Mapping[str, Judged], limit: float) -> list[Stretch]:
+    """Every stretch in which an estimator is more than *limit* (rad) off, the worst first."""
+    clock = _rising(recording.time)
+    found = []
+    for name, one in judged.items():
+        others = {other: each for other, each in judged.items() if other != name}
+        for rows in _departures(clock, one.angle, limit):
+            found.append(_told(recording, clock, name, one, others, rows, limit))
+    return sorted(found, key=lambda stretch: -stretch.severity)
+
+
+def _departures(clock: Floats, angle: Floats, limit: float) -> list[Rows]:
+    """The first and last row of each departure."""
+    rows = np.flatnonzero(angle > limit)
+    if not len(rows):
+        return []
+    cuts = np.flatnonzero(np.diff(clock[rows]) > BRIDGE) + 1
+    return [part for part in np.split(rows, cuts) if clock[part[-1]] - clock[part[0]] >= SHORTEST]
+
+
+def _told(
+    recording: Recording, clock: Floats, name: str, one: Judged, others: Mapping[str, Judged], rows: Rows, limit: float
+) -> Stretch:
+    whole = np.arange(rows[0], rows[-1] + 1)
+    heading, inclination = (
+        float(np.degrees(np.nanmedian(e[whole]))) for e in (one.errors.heading, one.errors.inclination)
+    )
+    part: Part = "heading and inclination"
+    if not one.heading or inclination > _MAINLY * heading:
+        part = "inclination"
+    elif heading > _MAINLY * inclination:
+        part = "heading"
+    near = [_share(each.angle[whole] <= limit) > 0.5 for each in others.values()]
+    angle = np.degrees(one.angle[whole])
+    return Stretch(
+        estimator=name,
+        start=float(clock[rows[0]]),
+        end=float(clock[rows[-1]]),
+        part=part,
+        median_deg=float(np.nanmedian(angle)),
+        peak_deg=float(np.nanmax(angle)),
+        heading_deg=heading if one.heading else None,
+        inclination_deg=inclination,
+        others_within=sum(near),
+        others=len(others),
+        reasons=_reasons(clock, one, whole, part),
+        sensors=_sensors(recording, whole),
+    )
+
+
+def _reasons(clock: Floats, one: Judged, rows: Rows, part: Part) -> tuple[str, ...]:
+    """Sentences of the flags that explain a departure: its events up to 2 s before, its states while it lasts."""
+    flags = one.attitude.flags
+    start, end = clock[rows[0]], clock[rows[-1]]
+    found = []
+    earlier = np.flatnonzero((clock >= start - _BEFORE) & (clock <= end))
+    unrelated = {"inclination": _OF_HEADING, "heading": _OF_INCLINATION}.get(part, ())
+    for flag in Flag:
+        if flag == Flag.REST or flag in unrelated:
+            continue
+        carried = (flags & np.uint32(flag)) != 0
+        if flag in _EVENTS:
+            when = clock[earlier[carried[earlier]]]
+            if len(when):
+                found.append(f"{SENTENCES[flag]} ({_times(when)})")
+            continue
+        inside, overall = _share(carried[rows]), _share(np.delete(carried, rows))
+        if inside >= _SHARE and inside >= _LIFT * overall:
+            found.append(f"{SENTENCES[flag]} ({inside:.0%} of the stretch)")
+    known = np.flatnonzero(np.isfinite(one.angle))
+    if len(known) and start - clock[known[0]] < BRIDGE and end - clock[known[0]] < SETTLING:
+        found.append("its start: it is over once the filter has settled")
+    return tuple(found)
+
+
+def _sensors(recording: Recording, rows: Rows) -> tuple[str, ...]:
+    """What is out of the ordinary while a stretch lasts: field, specific force, turning."""
+    found = []
+    field = np.linalg.norm(recording.mag, axis=1)
+    heard = np.isfinite(field) & (field > 0.0)
+    if heard.any():
+        inside = field[rows][heard[rows]]
+        usual = float(np.median(field[heard]))
+        if not len(inside):
+            found.append("no magnetometer sample")
+        elif (spread := np.percentile(inside, [5, 95]) / usual)[0] < 1 - _FIELD or spread[1] > 1 + _FIELD:
+            found.append(f"magnetic field {spread[0]:.2f} to {spread[1]:.2f} times its usual strength")
+    force = np.linalg.norm(recording.acc[rows], axis=1) / recording.gravity - 1.0
+    force = force[np.isfinite(force)]
+    if len(force) and (strong := float(np.sqrt(np.mean(force**2)))) > _FORCE:
+        found.append(f"accelerated: specific force {strong:.2f} g RMS off 1 g")
+    rate = np.degrees(np.linalg.norm(recording.gyr[rows], axis=1))
+    rate = rate[np.isfinite(rate)]
+    if len(rate) and (fast := float(np.percentile(rate, 95))) > _FAST:
+        found.append(f"turning fast: {fast:.0f} °/s")
+    return tuple(found)
+
+
+def _times(when: Floats) -> str:
+    return f"at {when[0]:.1f} s" if when[-1] - when[0] < 0.5 else f"{when[0]:.1f} to {when[-1]:.1f} s"
+
+
+def _share(mask: NDArray[np.bool_]) -> float:
+    return float(np.mean(mask)) if len(mask) else 0.0
+
+
+def _rising(time: Floats) -> Floats:
+    """The stamps with missing ones filled and set-back ones held, so that stretches have an order."""
+    known = np.isfinite(time)
+    if known.all() and (np.diff(time) >= 0).all():
+        return time
+    return np.asarray(np.maximum.accumulate(np.where(known, time, time[known][0] if known.any() else 0.0)))
+
+
+def worst(time: Floats, angle: Floats, seconds: float = 5.0) -> dict[str, Any] | None:
+    """The *seconds* with the largest mean of *angle* (n,) rad: start and end, s, and that mean in degrees."""
+    clock = _rising(time)
+    known = np.isfinite(angle)
+    if not known.any():
+        return None
+    stamps, values = clock[known], np.degrees(angle[known])
+    total = np.concatenate([[0.0], np.cumsum(values)])
+    after = np.searchsorted(stamps, stamps + seconds, side="right")
+    whole = stamps + seconds <= stamps[-1] + 1e-9
+    whole[0] = True  # a shorter recording is its own worst stretch
+    first = np.flatnonzero(whole)
+    means = (total[after[first]] - total[first]) / (after[first] - first)
+    best = int(np.argmax(means))
+    start = first[best]
+    return {"start": float(stamps[start]), "end": float(stamps[after[start] - 1]), "mean_deg": float(means[best])}
+
+
+def settled(time: Floats, angle: Floats, limit: float, seconds: float = 1.0) -> float | None:
+    """s after the first known row until *angle* (n,) has stayed within *limit*, rad, for *seconds*; None if never."""
+    clock = _rising(time)
+    known = np.flatnonzero(np.isfinite(angle))
+    if not len(known):
+        return None
+    stamps, good = clock[known], angle[known] <= limit
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], good, [False]]).astype(np.int8)))
+    for start, end in zip(edges[0::2], edges[1::2], strict=True):
+        if stamps[end - 1] - stamps[start] >= seconds:
+            return float(stamps[start] - stamps[0])
+    return None
