@@ -119,7 +119,9 @@ class Comparison:
             for run in self.runs
             if run.attitude is not None and run.errors is not None
         }
-        return tuple(stretches(self.recording, judged, radians(self.limit_deg)))
+        if self.reference is None:
+            return ()
+        return tuple(stretches(self.recording, judged, self.reference, radians(self.limit_deg)))
 
     def stretches(self, estimator: str | None = None) -> tuple[Stretch, ...]:
         """Where an estimator, or any, is further than the limit from the reference or the consensus, the worst first."""
@@ -139,6 +141,10 @@ class Comparison:
         for i, run in enumerate(runs):
             apart[0, i, i] = np.nan if run.heading == "none" else 0.0
         return Pairs(tuple(run.name for run in runs), apart[0], apart[1])
+
+    def seconds_away(self, estimator: str) -> float:
+        """s in all that an estimator is further than the limit from the reference or the consensus."""
+        return float(sum(s.end - s.start for s in self.stretches(estimator)))
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the samples, as plain values; figures that do not exist are None."""
@@ -183,6 +189,7 @@ class Comparison:
             "diverged": None,
             "settled_s": None,
             "worst_5s": None,
+            "seconds_away": None,
         }
         if run.errors is not None and run.attitude is not None:
             time = run.errors.time
@@ -193,6 +200,7 @@ class Comparison:
                 "diverged": run.diverged,
                 "settled_s": settled(time, run.judged, radians(self.limit_deg)),
                 "worst_5s": worst(time, run.judged),
+                "seconds_away": self.seconds_away(run.name),
             }
         return line
 
@@ -294,14 +302,16 @@ def _judged(recording: Recording, runs: list[Run], limit_deg: float) -> Comparis
     compared_with = recording if against == "reference" else reference
     if compared_with is not None:
         runs = [replace(run, errors=evaluate(run.attitude, compared_with)) if run.attitude else run for run in runs]
-    return Comparison(recording, reference, against, tuple(runs), limit_deg, _notes(recording, against, runs))
+    return Comparison(
+        recording, reference, against, tuple(runs), limit_deg, _notes(recording, against, runs, limit_deg)
+    )
 
 
 def _first(runs: Iterable[Run], heading: Heading) -> Attitude | None:
     return next((run.attitude for run in runs if run.attitude is not None and run.heading == heading), None)
 
 
-def _notes(recording: Recording, against: str, runs: list[Run]) -> tuple[str, ...]:
+def _notes(recording: Recording, against: str, runs: list[Run], limit_deg: float) -> tuple[str, ...]:
     notes = []
     done = [run for run in runs if run.attitude is not None]
     if against == "consensus":
@@ -310,6 +320,11 @@ def _notes(recording: Recording, against: str, runs: list[Run]) -> tuple[str, ..
             notes.append("one estimator alone has nothing to be compared with")
         elif len(done) == 2:
             notes.append("two estimators: each is half of their distance from the middle, and neither can be blamed")
+        elif (split := _without_majority(recording, done, limit_deg)) > 0.5:
+            notes.append(
+                f"for {split:.1f} s in all fewer than half of them are within {limit_deg:g}° of the consensus: there it says "
+                "nothing"
+            )
     if any(run.heading == "aligned" for run in done):
         notes.append(
             "no magnetometer: headings are arbitrary, and turned by one angle each to fit before they are compared"
@@ -324,6 +339,16 @@ def _notes(recording: Recording, against: str, runs: list[Run]) -> tuple[str, ..
                 "the reference counts from true north, estimators from magnetic north: declination is in the error"
             )
     return tuple(notes)
+
+
+def _without_majority(recording: Recording, runs: list[Run], limit_deg: float) -> float:
+    """s for which no more than half of the estimators with an attitude are near the consensus."""
+    judged = np.stack([run.judged for run in runs])
+    with np.errstate(invalid="ignore"):
+        near = np.sum(np.degrees(judged) <= limit_deg, axis=0)
+    there = np.sum(np.isfinite(judged), axis=0)
+    split = (there > 0) & (2 * near <= there)
+    return float(split.sum() / recording.rate_hz) if recording.rate_hz > 0 else 0.0
 
 
 def _why_nothing(attitude: Attitude) -> str:

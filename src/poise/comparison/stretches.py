@@ -12,6 +12,7 @@ from poise.data.attitude import Attitude
 from poise.data.flags import SENTENCES, Flag
 from poise.data.recording import Recording
 from poise.evaluation import Errors
+from poise.math import arrays
 
 Floats = NDArray[np.float64]
 Rows = NDArray[np.intp]
@@ -22,7 +23,7 @@ SETTLING = 10.0  # s: a departure that begins with the attitude and is over by t
 _BEFORE = 2.0  # s before a stretch in which an event (a restart, a gap) may have caused it
 _SHARE = 0.2  # of a stretch's rows that have to carry a flag for it to explain the stretch
 _LIFT = 1.5  # … and so many times more often than the rest of the recording, if that carries it too
-_FIELD, _FORCE, _FAST = 0.15, 0.2, 300.0  # of its usual strength, g RMS, °/s: what is told of the sensors
+_FIELD, _DIP, _FORCE, _FAST = 0.1, 8.0, 0.2, 300.0  # of its strength, °, g RMS, °/s: what is told of the sensors
 _MAINLY = 2.0  # times the other part of the error
 
 _EVENTS = (Flag.RESET, Flag.GAP, Flag.TIME_DISORDER, Flag.LOST, Flag.SILENT, Flag.CORRECTION_FORCED)
@@ -57,6 +58,11 @@ class Stretch(NamedTuple):
     """what the sensors measured meanwhile that is out of the ordinary"""
 
     @property
+    def majority(self) -> bool:
+        """Whether most of the others agree, so that the blame is more than a guess."""
+        return 2 * self.others_within > self.others
+
+    @property
     def severity(self) -> float:
         """degree-seconds, by which stretches are ranked."""
         return self.median_deg * max(self.end - self.start, 0.0)
@@ -76,14 +82,15 @@ class Judged(NamedTuple):
         return self.errors.total if self.heading else self.errors.inclination
 
 
-def stretches(recording: Recording, judged: Mapping[str, Judged], limit: float) -> list[Stretch]:
-    """Every stretch in which an estimator is more than *limit* (rad) off, the worst first."""
+def stretches(recording: Recording, judged: Mapping[str, Judged], reference: Attitude, limit: float) -> list[Stretch]:
+    """Every stretch in which an estimator is more than *limit* (rad) off the *reference*, the worst first."""
     clock = _rising(recording.time)
+    sensors = _Sensors(recording, reference)
     found = []
     for name, one in judged.items():
         others = {other: each for other, each in judged.items() if other != name}
         for rows in _departures(clock, one.angle, limit):
-            found.append(_told(recording, clock, name, one, others, rows, limit))
+            found.append(_told(sensors, clock, name, one, others, rows, limit))
     return sorted(found, key=lambda stretch: -stretch.severity)
 
 
@@ -97,7 +104,7 @@ def _departures(clock: Floats, angle: Floats, limit: float) -> list[Rows]:
 
 
 def _told(
-    recording: Recording, clock: Floats, name: str, one: Judged, others: Mapping[str, Judged], rows: Rows, limit: float
+    sensors: _Sensors, clock: Floats, name: str, one: Judged, others: Mapping[str, Judged], rows: Rows, limit: float
 ) -> Stretch:
     whole = np.arange(rows[0], rows[-1] + 1)
     heading, inclination = (
@@ -122,7 +129,7 @@ def _told(
         others_within=sum(near),
         others=len(others),
         reasons=_reasons(clock, one, whole, part),
-        sensors=_sensors(recording, whole),
+        sensors=sensors.remarks(whole),
     )
 
 
@@ -151,27 +158,48 @@ def _reasons(clock: Floats, one: Judged, rows: Rows, part: Part) -> tuple[str, .
     return tuple(found)
 
 
-def _sensors(recording: Recording, rows: Rows) -> tuple[str, ...]:
-    """What is out of the ordinary while a stretch lasts: field, specific force, turning."""
-    found = []
-    field = np.linalg.norm(recording.mag, axis=1)
-    heard = np.isfinite(field) & (field > 0.0)
-    if heard.any():
-        inside = field[rows][heard[rows]]
-        usual = float(np.median(field[heard]))
-        if not len(inside):
+class _Sensors:
+    """What the sensors measured, in terms of what is usual for them."""
+
+    def __init__(self, recording: Recording, reference: Attitude) -> None:
+        field = np.linalg.norm(recording.mag, axis=1)
+        field[~(field > 0.0)] = np.nan
+        up = arrays.rotate(arrays.conjugate(reference.to("enu").quat), np.array([0.0, 0.0, 1.0]))
+        with np.errstate(invalid="ignore"):
+            dip = np.degrees(np.arcsin(np.clip(-np.sum(recording.mag * up, axis=1) / field, -1.0, 1.0)))
+        self.has_mag = recording.has_mag
+        self.field = field / _median(field)
+        self.dip = dip - _median(dip)
+        self.force = np.linalg.norm(recording.acc, axis=1) / recording.gravity - 1.0
+        self.rate = np.degrees(np.linalg.norm(recording.gyr, axis=1))
+
+    def remarks(self, rows: Rows) -> tuple[str, ...]:
+        """What is out of the ordinary in *rows*: field, specific force, turning."""
+        found = []
+        field, dip = _known(self.field[rows]), _known(self.dip[rows])
+        if self.has_mag and not len(field):
             found.append("no magnetometer sample")
-        elif (spread := np.percentile(inside, [5, 95]) / usual)[0] < 1 - _FIELD or spread[1] > 1 + _FIELD:
-            found.append(f"magnetic field {spread[0]:.2f} to {spread[1]:.2f} times its usual strength")
-    force = np.linalg.norm(recording.acc[rows], axis=1) / recording.gravity - 1.0
-    force = force[np.isfinite(force)]
-    if len(force) and (strong := float(np.sqrt(np.mean(force**2)))) > _FORCE:
-        found.append(f"accelerated: specific force {strong:.2f} g RMS off 1 g")
-    rate = np.degrees(np.linalg.norm(recording.gyr[rows], axis=1))
-    rate = rate[np.isfinite(rate)]
-    if len(rate) and (fast := float(np.percentile(rate, 95))) > _FAST:
-        found.append(f"turning fast: {fast:.0f} °/s")
-    return tuple(found)
+        elif len(field):
+            low, high = np.percentile(field, [5, 95])
+            if low < 1.0 - _FIELD or high > 1.0 + _FIELD:
+                found.append(f"magnetic field {low:.2f} to {high:.2f} times its usual strength")
+            if len(dip) and (lean := float(np.percentile(np.abs(dip), 95))) > _DIP:
+                found.append(f"magnetic field dips up to {lean:.0f}° off its usual angle")
+        force, rate = _known(self.force[rows]), _known(self.rate[rows])
+        if len(force) and (strong := float(np.sqrt(np.mean(force**2)))) > _FORCE:
+            found.append(f"accelerated: specific force {strong:.2f} g RMS off 1 g")
+        if len(rate) and (fast := float(np.percentile(rate, 95))) > _FAST:
+            found.append(f"turning fast: {fast:.0f} °/s")
+        return tuple(found)
+
+
+def _known(values: Floats) -> Floats:
+    return values[np.isfinite(values)]
+
+
+def _median(values: Floats) -> float:
+    known = _known(values)
+    return float(np.median(known)) if len(known) else float("nan")
 
 
 def _times(when: Floats) -> str:

@@ -41,7 +41,7 @@ _COLUMNS, _NARROW_COLUMNS = 900, 320  # of time in a strip
 
 
 def comparison_figure(comparison: Comparison, title: str = "", *, narrow: bool = False) -> Figure:
-    """What the sensors felt, then a strip a estimator: its distance in heading, and in inclination, over time.
+    """What the sensors felt, then a strip for each estimator: its distance in heading, and in inclination, over time.
 
     Each column of a strip has the shade of the largest distance in it, and stays empty where no attitude is known. The
     number beside a strip is its RMS.
@@ -59,7 +59,7 @@ def comparison_figure(comparison: Comparison, title: str = "", *, narrow: bool =
     _draw_strengths(axes[1], time, comparison)
     what = "the reference" if comparison.against == "reference" else "the consensus"
     for ax, part, shown in ((axes[2], "heading", headed), (axes[3], "inclination", runs)):
-        name_panel(ax, f"{part.capitalize()}: distance from {what}", "")
+        name_panel(ax, f"{part.capitalize()}, from {what}", "")
         _draw_strips(ax, time, shown, part, _NARROW_COLUMNS if narrow else _COLUMNS)
     finish(figure, axes, time, label)
     for ax in axes[2:]:
@@ -73,7 +73,7 @@ def comparison_figure(comparison: Comparison, title: str = "", *, narrow: bool =
 
 
 def _draw_turning(ax: Axes, time: Floats, comparison: Comparison) -> None:
-    name_panel(ax, "Turning", "[°/s]")
+    name_panel(ax, "Turning [°/s]", "")
     _plain_line(ax, time, np.degrees(np.linalg.norm(comparison.recording.gyr, axis=1)), INK, "angular rate")
     fit(ax, least=10.0, floor=0.0)
     legend(ax)
@@ -81,7 +81,7 @@ def _draw_turning(ax: Axes, time: Floats, comparison: Comparison) -> None:
 
 def _draw_strengths(ax: Axes, time: Floats, comparison: Comparison) -> None:
     recording = comparison.recording
-    name_panel(ax, "Strength", "of the usual one")
+    name_panel(ax, "Strength", "")
     _plain_line(ax, time, np.linalg.norm(recording.acc, axis=1) / recording.gravity, BLUE, "specific force / g")
     if recording.has_mag:
         field = np.linalg.norm(recording.mag, axis=1)
