@@ -23,7 +23,8 @@ SETTLING = 10.0  # s: a departure that begins with the attitude and is over by t
 _BEFORE = 2.0  # s before a stretch in which an event (a restart, a gap) may have caused it
 _SHARE = 0.2  # of a stretch's rows that have to carry a flag for it to explain the stretch
 _LIFT = 1.5  # … and so many times more often than the rest of the recording, if that carries it too
-_FIELD, _DIP, _FORCE, _FAST = 0.1, 8.0, 0.2, 300.0  # of its strength, °, g RMS, °/s: what is told of the sensors
+_FIELD, _DIP, _FORCE, _FAST = 0.1, 10.0, 0.2, 300.0  # of its strength, °, g RMS, °/s: what is told of the sensors
+_EARLIER = 15.0  # s before a stretch in which the sensors may have caused it
 _MAINLY = 2.0  # times the other part of the error
 
 _EVENTS = (Flag.RESET, Flag.GAP, Flag.TIME_DISORDER, Flag.LOST, Flag.SILENT, Flag.CORRECTION_FORCED)
@@ -129,7 +130,7 @@ def _told(
         others_within=sum(near),
         others=len(others),
         reasons=_reasons(clock, one, whole, part),
-        sensors=sensors.remarks(whole),
+        sensors=sensors.remarks(whole) or sensors.before(clock, whole),
     )
 
 
@@ -172,6 +173,12 @@ class _Sensors:
         self.dip = dip - _median(dip)
         self.force = np.linalg.norm(recording.acc, axis=1) / recording.gravity - 1.0
         self.rate = np.degrees(np.linalg.norm(recording.gyr, axis=1))
+
+    def before(self, clock: Floats, rows: Rows) -> tuple[str, ...]:
+        """What was out of the ordinary just before: a filter may be slow to follow, or to come back."""
+        start = clock[rows[0]]
+        earlier = np.flatnonzero((clock >= start - _EARLIER) & (clock < start))
+        return tuple(f"in the {_EARLIER:g} s before: {text}" for text in self.remarks(earlier)) if len(earlier) else ()
 
     def remarks(self, rows: Rows) -> tuple[str, ...]:
         """What is out of the ordinary in *rows*: field, specific force, turning."""

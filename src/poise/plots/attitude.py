@@ -44,7 +44,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_REST_SHADE, _INVALID_SHADE, _FLAG_SHADE = ("#7FA6C9", 0.22), ("#CC1F1F", 0.35), ("#E69F00", 0.9)  # colour, opacity
+SHADES = _REST_SHADE, _INVALID_SHADE, _FLAG_SHADE = (
+    ("#7FA6C9", 0.22),
+    ("#CC1F1F", 0.35),
+    ("#E69F00", 0.9),
+)  # colour, opacity
 _STRIP = 0.045  # of a panel's height, at its foot: flags are many, and shades behind the lines would drown them
 _UNDETERMINED = 80.0  # degrees of pitch past which heading and roll are hardly determined
 
