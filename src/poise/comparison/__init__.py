@@ -149,7 +149,7 @@ class Comparison:
     def to_dict(self) -> dict[str, Any]:
         """Everything but the samples, as plain values; figures that do not exist are None."""
         recording = self.recording
-        return _plain(
+        facts: dict[str, Any] = _plain(
             {
                 "recording": {
                     "name": recording.name,
@@ -174,6 +174,7 @@ class Comparison:
                 "stretches": [s._asdict() for s in self.found],
             }
         )
+        return facts
 
     def _line(self, run: Run) -> dict[str, Any]:
         line: dict[str, Any] = {
@@ -226,7 +227,9 @@ def compare(
     if not np.isfinite(limit_deg) or not 0.0 < limit_deg <= 180.0:
         raise RecordingError(f"limit_deg: expected degrees above 0, up to 180, found {limit_deg!r}")
     todo: dict[str, Any] = dict(methods) if isinstance(methods, Mapping) else methods_named(methods)
-    others = chosen(peers) if isinstance(peers, str) and peers.strip() else dict(peers or {})
+    others: dict[str, Peer] = {}
+    if peers:
+        others = chosen(peers) if isinstance(peers, str) else dict(peers)
     if twice := todo.keys() & others.keys():
         raise MethodError(f"{', '.join(sorted(twice))}: a method and a peer of the same name; rename one")
     todo |= others

@@ -64,7 +64,7 @@ def median_direction(vectors: Floats) -> Floats:
 
     Between two, the middle; where all are NaN, NaN.
     """
-    known = np.isfinite(vectors).all(axis=2)
+    known: NDArray[np.bool_] = np.asarray(np.isfinite(vectors).all(axis=2))
     v = np.where(known[..., None], vectors, 0.0)
     first = np.take_along_axis(v, np.argmax(known, axis=0)[None, :, None], axis=0)[0]
     centre = _unit(v.sum(axis=0), first)

@@ -106,7 +106,7 @@ def _without_reference(run: Run, line: dict[str, Any]) -> list[Any]:
 def _shared(run: Run, line: dict[str, Any], *more: float | None) -> list[Any]:
     worst = line["worst_5s"]
     return [
-        f"{worst['mean_deg']:.1f} at {worst['start']:.0f} s" if worst else "-",
+        f"{worst['mean_deg']:.1f} at {round(worst['start'])} s" if worst else "-",
         *(_NAN if value is None else value for value in more),
         _NAN if line["seconds_away"] is None else line["seconds_away"],
         "-" if line["valid"] is None else f"{line['valid']:.1%}",

@@ -94,7 +94,7 @@ def _draw_strengths(ax: Axes, time: Floats, comparison: Comparison) -> None:
 def _plain_line(ax: Axes, time: Floats, values: Floats, colour: str, label: str) -> None:
     known = np.isfinite(values) & np.isfinite(time)
     stamps, shown = time[known], values[known]
-    rows = thinned(shown)
+    rows = thinned(shown, ax)
     ax.plot(stamps[rows], shown[rows], color=colour, lw=0.9, label=label)
 
 
@@ -166,7 +166,7 @@ def _key(figure: Figure) -> None:
         f"over {bounds[-1]}°",
     ]
     patches = [Patch(color=c, lw=0, label=n) for c, n in zip(SHADES, names, strict=True)]
-    patches.append(Patch(color=ABSENT, lw=0, label="no attitude"))
+    patches.append(Patch(color=ABSENT, lw=0, label="unknown"))
     figure.legend(
         handles=patches, loc="outside lower right", ncols=4 if is_narrow(figure) else 8, fontsize=8.5, labelcolor=INK,
         handlelength=1.2, columnspacing=1.2, **BARE,

@@ -54,7 +54,7 @@ def inline_svg(figure: Figure, key: str, description: str) -> str:
     start = f'<svg role="img" aria-label="{escape(description, quote=True)}" {box[0] if box else ""}>'
     svg = start + svg[svg.index(">") + 1 :].rstrip()
     svg = svg.replace("xlink:href", "href")
-    svg = re.sub(r'(?<= d=")[^"]+', lambda m: _DECIMALS.sub(lambda n: f"{float(n[0]):.1f}", m[0]), svg)
+    svg = re.sub(r'(?<= d=")[^"]+', lambda m: _short(m[0]), svg)
     used = set(re.findall(r'href="#([^"]+)"|url\(#([^)]+)\)', svg))
     kept = {name for pair in used for name in pair if name}
     svg = re.sub(r' id="([^"]+)"', lambda m: m[0] if m[1] in kept else "", svg)
@@ -63,3 +63,10 @@ def inline_svg(figure: Figure, key: str, description: str) -> str:
     return re.sub(
         r"(?<=[:\s])#[0-9a-f]{6}(?=[;\"\s])", lambda m: f"var(--{named[m[0]]})" if m[0] in named else m[0], svg
     )
+
+
+def _short(path: str) -> str:
+    """The same path with fewer characters: a long recording has tens of thousands of points."""
+    path = _DECIMALS.sub(lambda n: f"{float(n[0]):.1f}", path)
+    path = re.sub(r"\s+", " ", path).strip()
+    return path if re.search("[CQ]", path) else path.replace(" L ", " ")  # lines are what follows a move

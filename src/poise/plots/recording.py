@@ -100,7 +100,7 @@ def _draw_sensor(ax: Axes, time: Floats, recording: Recording, sensor: str) -> N
     if sensor != "gyr":
         drawn.insert(0, (np.linalg.norm(shown, axis=1), "length", QUIET))
     for column, axis, colour in drawn:
-        keep = thinned(column)
+        keep = thinned(column, ax)
         ax.plot(stamps[keep], column[keep], color=colour, lw=1.0 if axis != "length" else 1.4, label=axis)
     fit(ax, least=1.0)
     legend(ax)
@@ -119,7 +119,7 @@ def _broken(stamps: Floats, values: Floats) -> tuple[Floats, Floats]:
 def _draw_steps(ax: Axes, time: Floats) -> None:
     name_panel(ax, "Step between stamps", "[ms]")
     steps = 1e3 * np.diff(time)
-    keep = thinned(steps)
+    keep = thinned(steps, ax)
     ax.plot(time[1:][keep], steps[keep], color=INK, lw=0.8, label=f"usually {np.nanmedian(steps):.2f} ms")
     if np.nanmax(steps) > 30.0 * np.nanmedian(steps) > 0 and np.nanmin(steps) > 0:
         ax.set_yscale("log")

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-POINTS = 4000
-"""most points of a line; longer recordings are thinned so that every peak stays"""
+POINTS, NARROW_POINTS = 3000, 1000
+"""most points of a line, and of one in a narrow picture; longer recordings are thinned so that every peak stays"""
 NARROW = 4.4
 """in, the width of a picture for a phone"""
 FORMATS = ("png", "svg", "pdf")
@@ -77,12 +77,12 @@ def line(
     seam makes no peaks, and the line is broken there.
     """
     if low is None:
-        rows = thinned(values)
+        rows = thinned(values, ax)
         shown = values[rows]
     else:
         whole, known = values.copy(), np.isfinite(values)
         whole[known] = np.unwrap(values[known], period=360.0)
-        rows = thinned(whole)
+        rows = thinned(whole, ax)
         shown = (whole[rows] - low) % 360.0 + low
         shown[np.abs(np.diff(shown, prepend=shown[:1])) > 180.0] = np.nan
     if width is not None and np.isfinite(width).any():
@@ -97,10 +97,11 @@ def line(
         ax.plot(time[rows], shown, color=INK, lw=1.2, ls=(0, (4, 2)), label=label, zorder=2.5)
 
 
-def thinned(values: Floats) -> NDArray[np.intp]:
-    """The rows to draw of values (n,): all, or the lowest and the highest of each of POINTS / 2 stretches, in order."""
-    n, stretches = len(values), POINTS // 2
-    if n <= POINTS:
+def thinned(values: Floats, ax: Axes) -> NDArray[np.intp]:
+    """The rows to draw of values (n,): all, or the lowest and the highest of each of many short stretches, in order."""
+    most = NARROW_POINTS if is_narrow(ax.figure) else POINTS
+    n, stretches = len(values), most // 2
+    if n <= most:
         return np.arange(n)
     size = -(-n // stretches)
     padded = np.full(-(-n // size) * size, np.nan)
