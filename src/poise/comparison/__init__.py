@@ -20,8 +20,8 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from poise.comparison.consensus import aligned, consensus
-from poise.comparison.stretches import Judged, Stretch, settled, stretches, worst
+from poise.comparison.agreement import aligned, consensus
+from poise.comparison.departures import Judged, Stretch, settled, stretches, worst
 from poise.data.attitude import Attitude
 from poise.data.recording import Recording
 from poise.errors import MethodError, PoiseError, RecordingError
@@ -323,7 +323,7 @@ def _notes(recording: Recording, against: str, runs: list[Run], limit_deg: float
             notes.append("one estimator alone has nothing to be compared with")
         elif len(done) == 2:
             notes.append("two estimators: each is half of their distance from the middle, and neither can be blamed")
-        elif (split := _without_majority(recording, done, limit_deg)) > 0.5:
+        elif done and (split := _without_majority(recording, done, limit_deg)) > 0.5:
             notes.append(
                 f"for {split:.1f} s in all fewer than half of them are within {limit_deg:g}° of the consensus: there it says "
                 "nothing"

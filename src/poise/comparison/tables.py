@@ -28,9 +28,7 @@ def estimators(comparison: Comparison) -> Table:
             "estimator", "total", "heading", "inclination", "p95", "max", "worst 5 s", "settled s", limit, "valid", "remark",
         )  # fmt: skip
         rows = [_with_reference(run, lines[run.name]) for run in comparison.runs]
-        return Table(
-            "Error: RMSE over the rows that count, then percentile, maximum and worst 5 s, degrees", columns, rows
-        )
+        return Table("RMSE, 95th percentile, maximum and worst 5 s of the error, degrees", columns, rows)
     columns = (
         "estimator", "heading median", "p95", "max", "inclination median", "p95", "max", "worst 5 s", limit, "valid", "remark",
     )  # fmt: skip

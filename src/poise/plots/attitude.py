@@ -163,7 +163,9 @@ def _draw_errors(ax: Axes, time: Floats, attitude: Attitude, errors: Errors) -> 
     claimed = 3.0 * np.degrees(np.linalg.norm(attitude.sigma, axis=1))
     if np.isfinite(claimed).any():
         rows, usual = thinned(claimed, ax), float(np.nanmedian(claimed))
-        above = f" (about {usual:.0f}°, above the axis)" if usual > ax.get_ylim()[1] else ""
+        above = (
+            f" (about {usual:.0f}°, above the axis)" if usual > ax.get_ylim()[1] and not is_narrow(ax.figure) else ""
+        )
         ax.plot(time[rows], claimed[rows], color=QUIET, lw=1.1, ls=":", label=f"3σ of the total{above}")
     legend(ax)
 

@@ -144,11 +144,12 @@ def legend(ax: Axes) -> None:
     narrow = is_narrow(ax.figure)
     if narrow:
         ax.set_title(ax.get_title(loc="left"), loc="left", fontsize=10.5, fontweight="bold", color=INK, pad=21)
-    ax.legend(
+    box = ax.legend(
         loc="lower left" if narrow else "lower right", bbox_to_anchor=(0.0 if narrow else 1.0, 1.0), ncols=5,
         frameon=False, fontsize=8 if narrow else 9, labelcolor=INK, borderaxespad=0.1, borderpad=0.2,
         columnspacing=1.0 if narrow else 1.4, handlelength=1.2 if narrow else 1.8, handletextpad=0.5 if narrow else 0.8,
     )  # fmt: skip
+    box.set_in_layout(not narrow)  # it may reach beyond the panel, which must not shrink for it
 
 
 def is_narrow(figure: Any) -> bool:

@@ -20,14 +20,14 @@ Rows = NDArray[np.intp]
 BRIDGE = 1.0  # s: departures less far apart are one
 SHORTEST = 0.5  # s: a shorter one is not told
 SETTLING = 10.0  # s: a departure that begins with the attitude and is over by then is its start
-_BEFORE = 2.0  # s before a stretch in which an event (a restart, a gap) may have caused it
+_AROUND = 2.0  # s before and after a stretch begins: an event (a restart, a gap) in there may have caused it
 _SHARE = 0.2  # of a stretch's rows that have to carry a flag for it to explain the stretch
 _LIFT = 1.5  # … and so many times more often than the rest of the recording, if that carries it too
 _FIELD, _DIP, _FORCE, _FAST = 0.1, 10.0, 0.2, 300.0  # of its strength, °, g RMS, °/s: what is told of the sensors
 _EARLIER = 15.0  # s before a stretch in which the sensors may have caused it
 _MAINLY = 2.0  # times the other part of the error
 
-_EVENTS = (Flag.RESET, Flag.GAP, Flag.TIME_DISORDER, Flag.LOST, Flag.SILENT, Flag.CORRECTION_FORCED)
+_EVENTS = (Flag.RESET, Flag.GAP, Flag.TIME_DISORDER, Flag.LOST, Flag.SILENT)
 _OF_HEADING = (Flag.MAG_MISSING, Flag.HEADING_ARBITRARY)
 _OF_INCLINATION = (Flag.ACC_MISSING, Flag.ACC_DOUBTED)
 
@@ -135,18 +135,18 @@ def _told(
 
 
 def _reasons(clock: Floats, one: Judged, rows: Rows, part: Part) -> tuple[str, ...]:
-    """Sentences of the flags that explain a departure: its events up to 2 s before, its states while it lasts."""
+    """Sentences of the flags that explain a departure: its events as it begins, its states while it lasts."""
     flags = one.attitude.flags
     start, end = clock[rows[0]], clock[rows[-1]]
     found = []
-    earlier = np.flatnonzero((clock >= start - _BEFORE) & (clock <= end))
+    around = np.flatnonzero((clock >= start - _AROUND) & (clock <= min(start + _AROUND, end)))
     unrelated = {"inclination": _OF_HEADING, "heading": _OF_INCLINATION}.get(part, ())
     for flag in Flag:
         if flag == Flag.REST or flag in unrelated:
             continue
         carried = (flags & np.uint32(flag)) != 0
         if flag in _EVENTS:
-            when = clock[earlier[carried[earlier]]]
+            when = clock[around[carried[around]]]
             if len(when):
                 found.append(f"{SENTENCES[flag]} ({_times(when)})")
             continue
