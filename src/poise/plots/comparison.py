@@ -123,7 +123,7 @@ def _draw_strips(ax: Axes, time: Floats, runs: Sequence[Run], part: str, columns
             path = Path(np.concatenate(boxes), codes * len(boxes))
             ax.add_patch(PathPatch(path, facecolor=colour, edgecolor="none", lw=0, snap=False))
     ax.set_ylim(len(runs) - 0.5, -0.5)
-    ax.set_yticks(range(len(runs)), [run.name for run in runs])
+    ax.set_yticks(range(len(runs)), [run.name for run in runs], parse_math=False)
     beside = ax.secondary_yaxis("right")
     beside.set_yticks(range(len(runs)), numbers)
     beside.tick_params(length=0, labelsize=9, colors=INK)

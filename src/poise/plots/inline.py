@@ -59,6 +59,7 @@ def inline_svg(figure: Figure, key: str, description: str) -> str:
     kept = {name for pair in used for name in pair if name}
     svg = re.sub(r' id="([^"]+)"', lambda m: m[0] if m[1] in kept else "", svg)
     svg = re.sub(r"<style[^>]*>.*?</style>", "", svg, flags=re.DOTALL)  # the page's own says the same
+    svg = "".join(c for c in svg if c.isprintable() or c == "\n")  # a name may hold anything
     named = {colour.lower(): name for colour, name in NAMES.items()}
     return re.sub(
         r"(?<=[:\s])#[0-9a-f]{6}(?=[;\"\s])", lambda m: f"var(--{named[m[0]]})" if m[0] in named else m[0], svg
