@@ -1,4 +1,4 @@
-# `make demo` does the main job on a made recording, `make test` runs the tests; both need Python >= 3.11 and make only.
+# `make demo` runs every method on three made recordings, `make test` runs the tests; both need Python >= 3.11 and make only.
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
@@ -13,10 +13,8 @@ $(VENV)/ready: pyproject.toml
 	touch $@
 
 demo: $(VENV)/ready
-	$(BIN)/python examples/01_made_recording.py $(RESULTS)/forearm.csv
-	$(BIN)/poise sniff $(RESULTS)/forearm.csv
-	$(BIN)/poise estimate $(RESULTS)/forearm.csv -o $(RESULTS)/forearm.attitude.parquet --plot $(RESULTS)/forearm.png
-	@echo "Look at $(RESULTS)/forearm.png; then try: $(BIN)/poise estimate YOUR_FILE --plot picture.png"
+	$(BIN)/poise demo -o $(RESULTS)
+	@echo "Open $(RESULTS)/report.html; then try: $(BIN)/poise estimate YOUR_FILE --plot picture.png"
 
 test: $(VENV)/ready
 	$(BIN)/python -m pytest -n 2 --dist worksteal

@@ -16,6 +16,7 @@ _HOME = {
     "AdaptiveGain": "poise.estimators.adaptive_gain",
     "Armband": "poise.estimators.armband",
     "Attitude": "poise.data.attitude",
+    "Comparison": "poise.comparison",
     "Errors": "poise.evaluation",
     "Flag": "poise.data.flags",
     "Gated": "poise.estimators.gated",
@@ -28,6 +29,7 @@ _HOME = {
     "Stream": "poise.estimators.engine",
     "Tilt": "poise.estimators.tilt",
     "TwoStage": "poise.estimators.two_stage",
+    "compare": "poise.comparison",
     "estimate": "poise.estimators.engine",
     "evaluate": "poise.evaluation",
     "read": "poise.formats",
@@ -39,6 +41,8 @@ _HOME = {
 __all__ = [*_HOME]  # noqa: PLE0604  (a literal below would say everything twice)
 
 if TYPE_CHECKING:
+    from poise.comparison import Comparison as Comparison
+    from poise.comparison import compare as compare
     from poise.data.attitude import Attitude as Attitude
     from poise.data.flags import Flag as Flag
     from poise.data.packet import Packet as Packet

@@ -7,9 +7,12 @@ import sys
 
 from cyclopts import App, CycloptsError
 
+from poise.cli.compare import compare
+from poise.cli.demo import demo
 from poise.cli.estimate import estimate
 from poise.cli.evaluate import evaluate
 from poise.cli.methods import methods
+from poise.cli.plot import plot
 from poise.cli.sniff import sniff
 
 app = App(
@@ -18,14 +21,18 @@ app = App(
 with its uncertainty and its reasons.
 
 Start with your own file: `poise sniff walk.csv` says what poise makes of it, `poise estimate walk.csv --plot walk.png`
-writes the attitude and a picture. Every command explains itself with `--help`.""",
+writes the attitude and a picture. No file at hand?
+`poise demo` makes three and compares every method on them. Every command explains itself with `--help`.""",
     help_format="markdown",
     version=lambda: f"poise {_version()}",
 )
 app.command(estimate)
 app.command(evaluate)
+app.command(compare)
+app.command(plot)
 app.command(sniff)
 app.command(methods)
+app.command(demo)
 
 
 def main() -> None:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from cyclopts import Parameter
 
 from poise.cli import show
-from poise.cli.options import Reading, Running, UsageError, usage
-from poise.errors import FormatError
+from poise.cli.options import Reading, Running, UsageError
+from poise.cli.targets import PICTURES, make_room, targets
 
 if TYPE_CHECKING:
     from poise.data.attitude import Attitude
@@ -64,10 +64,10 @@ def estimate(
     try:
         running.build()
         reading.as_arguments()
-        targets = _targets(files, output, _ending(output, format), _WRITABLE, "--output")
-        if frame != "enu" and any(_is_ros(target, format) for target in targets.values()):
+        outputs = targets(files, output, _ending(output, format), _WRITABLE, "--output")
+        if frame != "enu" and any(_is_ros(target, format) for target in outputs.values()):
             usage(f"--frame {frame}: an orientation in a ROS bag is body to east-north-up (REP 103); leave --frame out")
-        pictures = _targets(files, plot, ".attitude.png", (".png", ".svg", ".pdf"), "--plot") if plot else {}
+        pictures = targets(files, plot, ".attitude.png", PICTURES, "--plot") if plot else {}
 
         def work(file: Path, tell: Callable[[str, float], None]) -> dict[str, Any]:
             tell("reading", 0.0)
@@ -75,7 +75,7 @@ def estimate(
             tell("estimating (a first run compiles the method)", 0.2)
             n = max(len(recording), 1)
             attitude = running.estimate(recording, progress=lambda done: tell("estimating", 0.2 + 0.6 * done / n))
-            return _finished(file, recording, attitude.to(frame), targets[file], format, pictures.get(file), tell)
+            return _finished(file, recording, attitude.to(frame), outputs[file], format, pictures.get(file), tell)
 
         running.warm()
         results, refused = show.each(files, work)
@@ -104,10 +104,7 @@ def _finished(
 
     tell("writing", 0.8)
     for place in filter(None, (target, picture)):
-        try:
-            place.parent.mkdir(parents=True, exist_ok=True)
-        except (FileExistsError, NotADirectoryError):
-            raise FormatError(f"{place}: cannot be written: {place.parent} is a file, not a folder") from None
+        make_room(place)
     write(attitude, target, format, recording=recording)
     errors = evaluate(attitude, recording) if recording.truth is not None else None
     if picture:
@@ -170,30 +167,3 @@ def _ending(output: Path | None, format: _Format | None) -> str:
 
 def _is_ros(target: Path, format: _Format | None) -> bool:
     return format in _ROS or target.suffix.lower() in (".bag", ".mcap")
-
-
-def _targets(
-    files: list[Path], target: Path | None, ending: str, known: tuple[str, ...], option: str
-) -> dict[Path, Path]:
-    """Where each file's result goes; never on top of an input or of one another."""
-    if target is None:
-        places = {file: Path(file.stem + ending) for file in files}
-    elif target.suffix.lower() in known and not target.is_dir():
-        if len(files) != 1:
-            usage(f"{option} {target} is one file, for {len(files)} recordings; give a folder")
-        places = {files[0]: target}
-    elif target.suffix and not target.is_dir():
-        usage(f"{option} {target}: expected a folder, or a file ending in {', '.join(known)}")
-    else:
-        places = {file: target / (file.stem + ending) for file in files}
-    inputs = {file.resolve() for file in files}
-    if len(inputs) < len(files):
-        usage("a recording is given twice")
-    taken: dict[Path, Path] = {}
-    for file, place in places.items():
-        if place.resolve() in inputs:
-            usage(f"{option} {place} is one of the recordings; nothing is written over an input")
-        if place in taken:
-            usage(f"{taken[place]} and {file} would both be written to {place}; estimate them into two folders")
-        taken[place] = file
-    return places

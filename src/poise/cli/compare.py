@@ -1,0 +1,215 @@
+"""``poise compare``: estimators side by side."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+
+from cyclopts import Parameter
+
+from poise.cli import show
+from poise.cli.options import Reading, UsageError, usage
+from poise.cli.targets import PICTURES, make_room, targets
+from poise.errors import PoiseError
+
+if TYPE_CHECKING:
+    from poise.comparison import Comparison
+
+_TOLD = 5  # stretches of a file; --json and --report have them all
+
+
+class Compared(NamedTuple):
+    """A file's comparison, and the picture of it."""
+
+    file: Path
+    comparison: Comparison
+    picture: Path | None
+
+
+def compare(
+    files: Annotated[list[Path], Parameter(name="FILE", negative="")],
+    /,
+    *,
+    method: Annotated[tuple[str, ...], Parameter(name=["--method", "-m"], negative="")] = (),
+    with_: Annotated[str, Parameter(name="--with")] = "",
+    limit: float = 10.0,
+    json: Annotated[bool, Parameter(negative="")] = False,
+    plot: Path | None = None,
+    report: Path | None = None,
+    reading: Reading | None = None,
+) -> int:
+    """Run methods side by side: their errors, or how far, when and why they disagree.
+
+    Where a FILE has a reference, the errors are those of `poise evaluate`. Where it has none, what most of the estimators
+    agree on takes its place: who departs from it, from when to when, by how much, and what the flags and the sensors say
+    about it. An estimator that cannot run on a file is a row with its reason.
+
+    Examples: `poise compare walk.csv`; `poise compare walk.csv --with vqf,imufusion --report walk.html`;
+    `poise compare trials/*.mat -m two-stage -m gated --json`
+
+    Parameters
+    ----------
+    files
+        Recordings: whatever `poise estimate` reads.
+    method
+        A method to compare; repeat for more. All of them, with their defaults, if not given.
+    with_
+        Other packages' filters to compare with: `vqf,imufusion,ahrs`, or single ones such as `vqf-offline`.
+    limit
+        Degrees from the reference, or from the consensus, beyond which an estimator is said to depart.
+    json
+        Print everything as JSON.
+    plot
+        A picture (.png, .svg, .pdf) of who is how far off, and when; a folder for several FILEs.
+    report
+        One HTML file with the tables, pictures, stretches of disagreement and settings; it needs nothing beside it.
+    """
+    reading = reading or Reading()
+    try:
+        estimators = _chosen(method, with_, limit)
+        reading.as_arguments()
+        pictures = targets(files, plot, ".comparison.png", PICTURES, "--plot") if plot else {}
+        if not plot:
+            targets(files, None, ".html", (), "--report")  # the same recording twice is a mistake here, too
+        if report is not None:
+            _check_report(report, [*files, *pictures.values()])
+        done, refused = run(files, estimators, reading, limit, pictures)
+    except UsageError as error:
+        show.problem(error)
+        return 2
+    if report is not None and done:
+        try:
+            write_report(report, done, refused, _command(files, method, with_, limit, reading, report))
+        except PoiseError as error:
+            show.problem(error)
+            return 1
+    if json:
+        show.as_json(as_document(done, refused))
+    elif done:
+        tell(done, report)
+    return 1 if refused else 0
+
+
+def run(
+    files: Sequence[Path],
+    estimators: tuple[Mapping[str, Any], Mapping[str, Any]],
+    reading: Reading,
+    limit: float,
+    pictures: Mapping[Path, Path],
+) -> tuple[list[Compared], list[dict[str, str]]]:
+    """The comparison of every file that could be read, with its picture, and what was wrong with the others."""
+    from poise.comparison import compare as side_by_side
+
+    methods, peers = estimators
+
+    def work(file: Path, tell: Callable[[str, float], None]) -> Compared:
+        tell("reading", 0.0)
+        recording = reading.read(file)
+        comparison = side_by_side(
+            recording,
+            methods,
+            peers,
+            limit_deg=limit,
+            progress=lambda name, share: tell(f"{name} (a first run compiles it)", 0.1 + 0.8 * share),
+        )
+        if picture := pictures.get(file):
+            from poise.plots import comparison_figure, save_figure
+
+            tell("drawing", 0.9)
+            make_room(picture)
+            save_figure(comparison_figure(comparison), picture)
+        return Compared(file, comparison, pictures.get(file))
+
+    return show.each(files, work)
+
+
+def write_report(path: Path, done: Sequence[Compared], refused: Sequence[Mapping[str, str]], command: str) -> None:
+    """The report of all that was compared. Raises :class:`PoiseError` where it cannot be drawn or written."""
+    from poise.report import write_report as write
+
+    make_room(path)
+    with show.waiting([one.file for one in done]) as tell_progress:
+        place = iter(one.file for one in done)
+        write(
+            path,
+            [one.comparison for one in done],
+            command=command,
+            refused=[(each["file"], each["error"]) for each in refused],
+            progress=lambda name, share: tell_progress(next(place), "drawing the report", 0.0),
+        )
+
+
+def as_document(done: Sequence[Compared], refused: Sequence[Mapping[str, str]]) -> dict[str, Any]:
+    """What --json prints."""
+    from poise.comparison.tables import means
+
+    results = [
+        {"file": str(one.file), "plot": str(one.picture) if one.picture else None} | one.comparison.to_dict()
+        for one in done
+    ]
+    return {"mean_rms_deg": means([one.comparison for one in done]), "results": results, "errors": list(refused)}
+
+
+def tell(done: Sequence[Compared], report: Path | None) -> None:
+    """The tables, the worst stretches and the notes of every file, then the means."""
+    from poise.comparison.tables import estimators, mean_tables, told
+
+    for file, comparison, picture in done:
+        table = estimators(comparison)
+        show.table(f"{file.name}: {table.title}", table.columns, table.rows)
+        for note in comparison.notes:
+            show.note(f"{file.name}: {note}")
+        found = comparison.stretches()
+        if found:
+            some = f", the worst {_TOLD}" if len(found) > _TOLD else ""
+            print(f"  {len(found)} stretch{'es' * (len(found) > 1)} beyond {comparison.limit_deg:g}°{some}:")
+        for stretch in found[:_TOLD]:
+            print(f"  {told(stretch, comparison)}")
+        if picture:
+            show.note(f"{file.name}: picture in {picture}")
+        print()
+    for table in mean_tables([one.comparison for one in done]):
+        show.table(table.title, table.columns, table.rows)
+    if report is not None:
+        show.note(f"report in {report}")
+
+
+def _chosen(method: Sequence[str], with_: str, limit: float) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
+    from poise.comparison import methods_named
+    from poise.peers import chosen
+
+    if not 0.0 < limit <= 180.0:
+        usage(f"--limit {limit}: expected degrees above 0, up to 180")
+    try:
+        methods = methods_named(method or None)
+    except PoiseError as error:
+        usage(str(error))
+    try:
+        return methods, chosen(with_) if with_ else {}
+    except PoiseError as error:
+        usage(f"--with {with_}: {error}")
+
+
+def _check_report(report: Path, others: Sequence[Path]) -> None:
+    if report.suffix.lower() not in (".html", ".htm") or report.is_dir():
+        usage(f"--report {report}: expected a file ending in .html")
+    if report.resolve() in {other.resolve() for other in others}:
+        usage(f"--report {report} is one of the recordings or pictures; nothing is written over them")
+
+
+def _command(
+    files: Sequence[Path], method: Sequence[str], with_: str, limit: float, reading: Reading, report: Path
+) -> str:
+    """The command that makes the same report."""
+    words = ["poise", "compare", *(f"./{f}" if str(f).startswith("-") else str(f) for f in files)]
+    for name in method:
+        words += ["--method", name]
+    words += ["--with", with_] if with_ else []
+    words += ["--limit", f"{limit:g}"] if limit != 10.0 else []
+    for option in fields(reading):
+        value = getattr(reading, option.name)
+        words += [f"--{option.name}", str(value)] if value is not None else []
+    return shlex.join([*words, "--report", str(report)])

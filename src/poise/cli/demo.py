@@ -1,0 +1,106 @@
+"""``poise demo``: everything on made recordings, for someone without a file."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
+
+from poise.cli import show
+from poise.cli.compare import Compared, as_document, run, tell, write_report
+from poise.cli.options import Reading
+from poise.errors import PoiseError
+
+if TYPE_CHECKING:
+    from poise.data.recording import Recording
+
+_DURATION = 60.0  # s
+
+
+def demo(*, output: Annotated[Path, Parameter(name=["--output", "-o"])] = Path("poise-demo")) -> int:
+    """Show what poise does on three made recordings: a forearm, a phone and a robot, each with its exact reference.
+
+    Writes the recordings as CSV files, runs every method on them, and every other package's filter that is installed,
+    and writes a table, pictures and one report, `report.html`. The first run compiles the methods, about 10 s each.
+
+    Parameters
+    ----------
+    output
+        The folder to write into.
+    """
+    from poise.comparison import LIMIT_DEG, available_peers, methods_named
+
+    try:
+        files = [_write(recording, output) for recording in _made()]
+        peers = available_peers()
+        pictures = {file: file.with_suffix(".comparison.png") for file in files}
+        done, refused = run(files, (methods_named(), peers), Reading(), LIMIT_DEG, pictures)
+        if refused:
+            return 1
+        for one in done:
+            _draw(one)
+        words = ["poise compare", *map(str, files), *(["--with", ",".join(peers)] if peers else [])]
+        write_report(output / "report.html", done, [], " ".join([*words, "--report", str(output / "report.html")]))
+        _save(
+            output / "comparison.json", json.dumps(as_document(done, []), indent=2, ensure_ascii=False, allow_nan=False)
+        )
+        _save(output / "table.csv", _table(done))
+    except PoiseError as error:
+        show.problem(error)
+        return 1
+    tell(done, output / "report.html")
+    show.note(f"recordings, pictures, table.csv and comparison.json in {output}")
+    return 0
+
+
+def _made() -> list[Recording]:
+    from poise.simulation import Sensor, forearm, measure, phone, robot
+
+    return [
+        measure(motion(_DURATION, seed=1), Sensor(), seed=1, name=motion.__name__) for motion in (forearm, phone, robot)
+    ]
+
+
+def _write(recording: Recording, folder: Path) -> Path:
+    from poise.cli.targets import make_room
+    from poise.formats import write
+
+    file = folder / f"{recording.name}.csv"
+    make_room(file)
+    write(recording, file)
+    return file
+
+
+def _draw(one: Compared) -> None:
+    """The sensors with the attitude of the best method."""
+    from poise.plots import recording_figure, save_figure
+
+    best = one.comparison.best
+    recording = one.comparison.recording
+    save_figure(recording_figure(recording, best.attitude if best else None), one.file.with_suffix(".png"))
+
+
+def _table(done: Sequence[Compared]) -> str:
+    """A row for each recording and estimator."""
+    text = io.StringIO()
+    rows = csv.writer(text, lineterminator="\n")
+    kinds = ("total", "heading", "inclination")
+    rows.writerow(["recording", "estimator", *(f"{kind}_rmse_deg" for kind in kinds), "failure"])
+    for one in done:
+        for run_ in one.comparison.runs:
+            figures = run_.figures()
+            told = [f"{figures[kind]['rmse']:.4f}" if kind in figures else "" for kind in kinds]
+            rows.writerow([one.comparison.recording.name, run_.name, *told, run_.failure])
+    return text.getvalue()
+
+
+def _save(path: Path, text: str) -> None:
+    from poise.formats.saving import replacing
+
+    with replacing(path) as file:
+        file.write(text.encode("utf-8"))

@@ -1,0 +1,85 @@
+"""``poise plot``: pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Parameter
+
+from poise.cli import show
+from poise.cli.options import Reading, Running, UsageError
+from poise.cli.targets import PICTURES, make_room, targets
+from poise.errors import FormatError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def plot(
+    files: Annotated[list[Path], Parameter(name="FILE", negative="")],
+    /,
+    *,
+    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    json: Annotated[bool, Parameter(negative="")] = False,
+    reading: Reading | None = None,
+    running: Running | None = None,
+) -> int:
+    """Draw recordings: what the sensors measured, and below it the attitude, with the reference where there is one.
+
+    A FILE may also be an attitude that poise wrote; then its angles are drawn.
+
+    Examples: `poise plot walk.csv -o walk.png`; `poise plot logs/*.csv -m gated -o pictures/`
+
+    Parameters
+    ----------
+    files
+        Recordings, or attitudes written by poise.
+    output
+        A picture (.png, .svg, .pdf) for one FILE, or a folder for any number; `NAME.png` in the current folder if not given.
+    json
+        Print what was drawn as JSON.
+    """
+    reading, running = reading or Reading(), running or Running()
+    try:
+        running.build()
+        reading.as_arguments()
+        pictures = targets(files, output, ".png", PICTURES, "--output")
+
+        def work(file: Path, tell: Callable[[str, float], None]) -> dict[str, Any]:
+            tell("reading", 0.0)
+            figure, kind = _drawn(file, reading, running, tell)
+            from poise.plots import save_figure
+
+            tell("drawing", 0.8)
+            make_room(pictures[file])
+            save_figure(figure, pictures[file])
+            return {"file": str(file), "drawn": kind, "plot": str(pictures[file])}
+
+        running.warm()
+        results, refused = show.each(files, work)
+    except UsageError as error:
+        show.problem(error)
+        return 2
+    if json:
+        show.as_json({"results": results, "errors": refused})
+    elif results:
+        show.table("", ["file", "drawn", "picture"], [[Path(r["file"]).name, r["drawn"], r["plot"]] for r in results])
+    return 1 if refused else 0
+
+
+def _drawn(file: Path, reading: Reading, running: Running, tell: Callable[[str, float], None]) -> tuple[Figure, str]:
+    from poise.formats import read_attitude
+    from poise.plots import attitude_figure, recording_figure
+
+    try:
+        recording = reading.read(file)
+    except FormatError as no_recording:
+        try:
+            return attitude_figure(read_attitude(file), title=file.stem), "attitude"
+        except FormatError:
+            raise no_recording from None
+    tell("estimating (a first run compiles the method)", 0.2)
+    attitude = running.estimate(recording)
+    return recording_figure(recording, attitude, title=recording.name), f"sensors and attitude ({running.method})"

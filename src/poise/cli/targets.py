@@ -1,0 +1,47 @@
+"""Where the results of several files go."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from poise.cli.options import usage
+from poise.errors import FormatError
+
+PICTURES = (".png", ".svg", ".pdf")
+
+
+def make_room(place: Path) -> None:
+    """Make the folder that *place* goes into. Raises :class:`FormatError` where a file is in the way."""
+    try:
+        place.parent.mkdir(parents=True, exist_ok=True)
+    except (FileExistsError, NotADirectoryError):
+        raise FormatError(f"{place}: cannot be written: {place.parent} is a file, not a folder") from None
+    except OSError as problem:
+        raise FormatError(f"{place}: cannot be written: {problem.strerror or problem}") from None
+
+
+def targets(
+    files: list[Path], target: Path | None, ending: str, known: tuple[str, ...], option: str
+) -> dict[Path, Path]:
+    """Where each file's result goes; never on top of an input or of one another."""
+    if target is None:
+        places = {file: Path(file.stem + ending) for file in files}
+    elif target.suffix.lower() in known and not target.is_dir():
+        if len(files) != 1:
+            usage(f"{option} {target} is one file, for {len(files)} recordings; give a folder")
+        places = {files[0]: target}
+    elif target.suffix and not target.is_dir():
+        usage(f"{option} {target}: expected a folder, or a file ending in {', '.join(known)}")
+    else:
+        places = {file: target / (file.stem + ending) for file in files}
+    inputs = {file.resolve() for file in files}
+    if len(inputs) < len(files):
+        usage("a recording is given twice")
+    taken: dict[Path, Path] = {}
+    for file, place in places.items():
+        if place.resolve() in inputs:
+            usage(f"{option} {place} is one of the recordings; nothing is written over an input")
+        if place in taken:
+            usage(f"{taken[place]} and {file} would both be written to {place}; give them two folders")
+        taken[place] = file
+    return places

@@ -1,0 +1,10 @@
+"""Pictures of recordings, attitudes and comparisons; matplotlib is imported when the first one is drawn, and no state of
+it is touched."""
+
+from poise.plots.attitude import attitude_figure
+from poise.plots.comparison import comparison_figure
+from poise.plots.inline import inline_svg
+from poise.plots.recording import recording_figure
+from poise.plots.style import FORMATS, POINTS, save_figure
+
+__all__ = ["FORMATS", "POINTS", "attitude_figure", "comparison_figure", "inline_svg", "recording_figure", "save_figure"]

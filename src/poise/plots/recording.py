@@ -1,0 +1,139 @@
+"""What the sensors of a recording said, and the attitude below it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from poise.data.attitude import Attitude
+from poise.data.recording import Recording
+from poise.evaluation import Errors
+from poise.plots.attitude import draw_attitude
+from poise.plots.style import (
+    BLUE,
+    GREEN,
+    INK,
+    NARROW,
+    ORANGE,
+    PAPER,
+    QUIET,
+    Floats,
+    clock,
+    figure_class,
+    finish,
+    fit,
+    head,
+    legend,
+    name_panel,
+    spans,
+    thinned,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_SENSORS = (("gyr", "Gyroscope", "[°/s]"), ("acc", "Accelerometer", "[m/s²]"), ("mag", "Magnetometer", "[µT]"))
+_UNEVEN = 0.05  # a step between stamps that differs by so much of the usual one is worth a panel
+_COUNTS = ("#E69F00", 0.9)
+
+
+def recording_figure(
+    recording: Recording,
+    attitude: Attitude | None = None,
+    errors: Errors | None = None,
+    title: str = "",
+    *,
+    narrow: bool = False,
+) -> Figure:
+    """Every sensor's axes and length over time, and the steps between stamps where they are uneven.
+
+    Below them, if given, the panels of :func:`attitude_figure`. The rows that errors are counted over are marked at the
+    foot of the first panel. Raises :class:`RecordingError` where the attitude's rows are not the recording's.
+    """
+    panels = _panels(recording)
+    ratios = [1.0] * len(panels) + ([1.0, 1.0, 0.8, 0.8] if attitude is not None else [])
+    size = (NARROW, 0.6 + 2.3 * len(ratios)) if narrow else (11.0, 0.9 + 2.05 * len(ratios))
+    figure = figure_class()(figsize=size, layout="constrained", facecolor=PAPER)
+    axes: Sequence[Axes] = np.atleast_1d(figure.subplots(len(ratios), 1, sharex=True, height_ratios=ratios)).tolist()
+    time, label = clock(recording.time)
+    for ax, panel in zip(axes, panels, strict=False):
+        if panel == "steps":
+            _draw_steps(ax, time)
+        else:
+            _draw_sensor(ax, time, recording, panel)
+    if recording.moving is not None:
+        _mark_counted(axes[0], time, recording)
+    facts = [f"{recording.duration:.1f} s at {recording.rate_hz:.1f} Hz, {len(recording)} rows"]
+    if attitude is None:
+        finish(figure, axes, time, label)
+    else:
+        finish(figure, axes[: len(panels)], time, "")
+        errors = draw_attitude(figure, axes[len(panels) :], attitude, recording, errors)
+        facts += [attitude.provenance.method] if attitude.provenance.method else []
+        facts += [f"RMSE {errors.rmse_deg().total:.2f}°"] if errors is not None and errors.counted.any() else []
+    head(figure, title or recording.name or "Recording", facts)
+    return figure
+
+
+def _panels(recording: Recording) -> list[str]:
+    found = [s for s, _, _ in _SENSORS if s != "mag" or recording.has_mag]
+    steps = np.diff(recording.time)
+    usual = np.median(steps) if len(steps) else np.nan
+    return found + (["steps"] if np.any(~(np.abs(steps / usual - 1.0) <= _UNEVEN)) and usual > 0 else [])
+
+
+def _draw_sensor(ax: Axes, time: Floats, recording: Recording, sensor: str) -> None:
+    values = getattr(recording, sensor)
+    name, unit = next((name, unit) for s, name, unit in _SENSORS if s == sensor)
+    values = np.degrees(values) if sensor == "gyr" else values
+    rows = np.flatnonzero(np.isfinite(values).all(axis=1) & np.isfinite(time))
+    share = len(rows) / max(len(time), 1)
+    name_panel(ax, name if share > 0.99 else f"{name} (a sample in {share:.0%} of the rows)", unit)
+    if not len(rows):
+        ax.text(0.5, 0.5, "no sample", transform=ax.transAxes, ha="center", va="center", color=QUIET)
+        return
+    stamps, shown = _broken(time[rows], values[rows])
+    drawn = [(shown[:, i], axis, colour) for i, (axis, colour) in enumerate(zip("xyz", (BLUE, ORANGE, GREEN)))]  # noqa: B905
+    if sensor != "gyr":
+        drawn.insert(0, (np.linalg.norm(shown, axis=1), "length", QUIET))
+    for column, axis, colour in drawn:
+        keep = thinned(column, ax)
+        ax.plot(stamps[keep], column[keep], color=colour, lw=1.0 if axis != "length" else 1.4, label=axis)
+    fit(ax, least=1.0)
+    legend(ax)
+
+
+def _broken(stamps: Floats, values: Floats) -> tuple[Floats, Floats]:
+    """The samples with a NaN row in every long silence, so that no line is drawn over it."""
+    steps = np.diff(stamps)
+    rising = steps[steps > 0]
+    if not len(rising):
+        return stamps, values
+    cuts = np.flatnonzero(steps > max(0.5, 5.0 * float(np.median(rising)))) + 1
+    return np.insert(stamps, cuts, stamps[cuts]), np.insert(values, cuts, np.nan, axis=0)
+
+
+def _draw_steps(ax: Axes, time: Floats) -> None:
+    name_panel(ax, "Step between stamps", "[ms]")
+    steps = 1e3 * np.diff(time)
+    keep = thinned(steps, ax)
+    ax.plot(time[1:][keep], steps[keep], color=INK, lw=0.8, label=f"usually {np.nanmedian(steps):.2f} ms")
+    if np.nanmax(steps) > 30.0 * np.nanmedian(steps) > 0 and np.nanmin(steps) > 0:
+        ax.set_yscale("log")
+    else:
+        fit(ax, least=1.0)
+    legend(ax)
+
+
+def _mark_counted(ax: Axes, time: Floats, recording: Recording) -> None:
+    assert recording.moving is not None
+    if found := spans(time, recording.moving):
+        colour, opacity = _COUNTS
+        across = ax.get_xaxis_transform()
+        ax.broken_barh(
+            found, (0, 0.03), transform=across, color=colour, alpha=opacity, lw=0, zorder=0.5, label="errors count"
+        )
+        legend(ax)
