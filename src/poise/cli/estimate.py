@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from cyclopts import Parameter
 
 from poise.cli import show
-from poise.cli.options import Reading, Running, UsageError
+from poise.cli.options import Reading, Running, UsageError, usage
 from poise.cli.targets import PICTURES, make_room, targets
 
 if TYPE_CHECKING:
