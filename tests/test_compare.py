@@ -195,7 +195,7 @@ def test_a_flag_explains_only_what_it_can(recording: poise.Recording, blind: poi
         blind, {"x": departures.Judged(attitude, errors, True)}, recording.truth, np.radians(10)
     )
     told = " ".join(found.reasons)
-    assert "counts less (80% of the stretch)" in told and "started anew" in told and "at 9.5 s" in told
+    assert "counts less (80% of the stretch)" in told and "started anew" in told and "0.5 s before it begins" in told
     assert "magnetometer sample" not in told  # a missing magnetometer does not tilt anything
 
 
@@ -251,3 +251,12 @@ def test_means_say_over_how_many(recording: poise.Recording) -> None:
     assert (rows["a"]["files"], rows["a"]["of"]) == (1, 2)
     [table] = tables.mean_tables([good, bad])
     assert table.rows[0][-1] == "1 of 2"
+
+
+def test_stamps_since_1970_are_told_from_the_first(recording: poise.Recording, blind: poise.Recording) -> None:
+    peers = truthful(recording) | {"liar": planted(turned(recording, 25.0, slice(1000, 1500)), "liar")}
+    comparison = poise.compare(replace(blind, time=blind.time + 1.7e9), {}, peers)
+    [stretch] = comparison.stretches()
+    assert stretch.start == pytest.approx(1.7e9 + 10.0, abs=0.1)  # the recording's own clock
+    assert tables.told(stretch, comparison).startswith("10.0-15.0 s: liar")
+    assert tables.estimators(comparison).rows[-1][7].endswith("at 10 s")

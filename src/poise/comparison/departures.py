@@ -148,7 +148,7 @@ def _reasons(clock: Floats, one: Judged, rows: Rows, part: Part) -> tuple[str, .
         if flag in _EVENTS:
             when = clock[around[carried[around]]]
             if len(when):
-                found.append(f"{SENTENCES[flag]} ({_times(when)})")
+                found.append(f"{SENTENCES[flag]} ({_times(when - start)})")
             continue
         inside, overall = _share(carried[rows]), _share(np.delete(carried, rows))
         if inside >= _SHARE and inside >= _LIFT * overall:
@@ -209,8 +209,10 @@ def _median(values: Floats) -> float:
     return float(np.median(known)) if len(known) else float("nan")
 
 
-def _times(when: Floats) -> str:
-    return f"at {when[0]:.1f} s" if when[-1] - when[0] < 0.5 else f"{when[0]:.1f} to {when[-1]:.1f} s"
+def _times(since: Floats) -> str:
+    """When events were, s from the beginning of the stretch."""
+    first = float(since[0])
+    return "as it begins" if abs(first) < 0.05 else f"{abs(first):.1f} s {'before' if first < 0 else 'after'} it begins"
 
 
 def _share(mask: NDArray[np.bool_]) -> float:

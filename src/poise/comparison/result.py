@@ -19,6 +19,7 @@ from poise.evaluation import Errors, evaluate
 Floats = NDArray[np.float64]
 Heading = Literal["own", "aligned", "none"]
 
+_EPOCH = (1e8, 1e11)  # s: stamps between these count from 1970, not from the start of a recording
 _KINDS = ("total", "heading", "inclination")
 
 
@@ -83,6 +84,12 @@ class Comparison:
     def done(self) -> list[Run]:
         """The runs that gave an attitude."""
         return [run for run in self.runs if run.errors is not None]
+
+    @property
+    def zero(self) -> float:
+        """s that people see as 0: the first stamp where stamps count from 1970, else 0. Stamps themselves are kept."""
+        known = self.recording.time[np.isfinite(self.recording.time)]
+        return float(known[0]) if len(known) and _EPOCH[0] < known[0] < _EPOCH[1] else 0.0
 
     @property
     def best(self) -> Run | None:

@@ -27,12 +27,12 @@ def estimators(comparison: Comparison) -> Table:
         columns = (
             "estimator", "total", "heading", "inclination", "p95", "max", "worst 5 s", "settled s", limit, "valid", "remark",
         )  # fmt: skip
-        rows = [_with_reference(run, lines[run.name]) for run in comparison.runs]
+        rows = [_with_reference(run, lines[run.name], comparison.zero) for run in comparison.runs]
         return Table("RMSE, 95th percentile, maximum and worst 5 s of the error, degrees", columns, rows)
     columns = (
         "estimator", "heading median", "p95", "max", "inclination median", "p95", "max", "worst 5 s", limit, "valid", "remark",
     )  # fmt: skip
-    rows = [_without_reference(run, lines[run.name]) for run in comparison.runs]
+    rows = [_without_reference(run, lines[run.name], comparison.zero) for run in comparison.runs]
     return Table("Distance from the consensus, degrees", columns, rows)
 
 
@@ -77,13 +77,14 @@ def told(stretch: Stretch, comparison: Comparison) -> str:
         if comparison.against == "consensus" and not stretch.majority:
             near += ", no majority"
     why = "".join(f"; {text}" for text in (*stretch.reasons, *stretch.sensors))
+    start, end = stretch.start - comparison.zero, stretch.end - comparison.zero
     return (
-        f"{stretch.start:.1f}-{stretch.end:.1f} s: {stretch.estimator} is off {from_what} in {stretch.part}, "
+        f"{start:.1f}-{end:.1f} s: {stretch.estimator} is off {from_what} in {stretch.part}, "
         f"{stretch.median_deg:.1f}° (up to {stretch.peak_deg:.1f}°){near}{why}"
     )
 
 
-def _with_reference(run: Run, line: dict[str, Any]) -> list[Any]:
+def _with_reference(run: Run, line: dict[str, Any], zero: float) -> list[Any]:
     figures = run.figures()
     judged = figures.get("inclination" if run.heading == "none" else "total", {})
     return [
@@ -91,20 +92,20 @@ def _with_reference(run: Run, line: dict[str, Any]) -> list[Any]:
         *(figures.get(part, {}).get("rmse", _NAN) for part in _PARTS),
         judged.get("p95", _NAN),
         judged.get("max", _NAN),
-        *_shared(run, line, line["settled_s"]),
+        *_shared(run, line, zero, line["settled_s"]),
     ]
 
 
-def _without_reference(run: Run, line: dict[str, Any]) -> list[Any]:
+def _without_reference(run: Run, line: dict[str, Any], zero: float) -> list[Any]:
     figures = run.figures()
     spread = [figures.get(p, {}).get(k, _NAN) for p in ("heading", "inclination") for k in ("median", "p95", "max")]
-    return [run.name, *spread, *_shared(run, line)]
+    return [run.name, *spread, *_shared(run, line, zero)]
 
 
-def _shared(run: Run, line: dict[str, Any], *more: float | None) -> list[Any]:
+def _shared(run: Run, line: dict[str, Any], zero: float, *more: float | None) -> list[Any]:
     worst = line["worst_5s"]
     return [
-        f"{worst['mean_deg']:.1f} at {round(worst['start'])} s" if worst else "-",
+        f"{worst['mean_deg']:.1f} at {round(worst['start'] - zero)} s" if worst else "-",
         *(_NAN if value is None else value for value in more),
         _NAN if line["seconds_away"] is None else line["seconds_away"],
         "-" if line["valid"] is None else f"{line['valid']:.1%}",

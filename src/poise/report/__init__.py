@@ -137,7 +137,14 @@ def _stretches(comparison: Comparison) -> str:
         others = f"{s.others_within} of {s.others}"
         others += ", no majority" if against == "consensus" and s.others > 1 and not s.majority else ""
         why = "; ".join((*s.reasons, *s.sensors)) or "no flag and nothing unusual in the samples"
-        cells = [f"{s.start:.1f} – {s.end:.1f} s", f"{s.median_deg:.1f}°", f"{s.peak_deg:.1f}°", s.part, others, why]
+        cells = [
+            f"{s.start - comparison.zero:.1f} – {s.end - comparison.zero:.1f} s",
+            f"{s.median_deg:.1f}°",
+            f"{s.peak_deg:.1f}°",
+            s.part,
+            others,
+            why,
+        ]
         kinds = ("time", "number", "number", "", "", "text")
         rows.append(
             f"<tr><th>{_text(s.estimator)}</th>"
