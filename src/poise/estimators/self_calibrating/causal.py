@@ -1,317 +1,363 @@
-"""SelfCalibrating."""
+"""SelfCalibrating: an error-state Kalman filter that learns its sensors while it runs.
+
+Source: our own, from published parts. Strapdown at every sample, covariance and corrections once per block (Savage 1998);
+gravity as a pseudo-velocity that stays near zero; gyroscope scale, misalignment and the magnetometer's delay and hard iron as
+states. Steps are numbered as in ``docs/methods/self-calibrating.md``, which derives them.
+
+Departures from the print: there is none; what was tried and left out stands on that page.
+"""
 
 from __future__ import annotations
 
-from math import atan2, cos, pi, radians, sin, sqrt
-from typing import Annotated, NamedTuple
+from math import atan2, pi, radians, sqrt
+from typing import Annotated, NamedTuple, Self
 
 import numpy as np
 
-from poise.data.flags import REST
+from poise.data.flags import GYR_CLIPPED, MAG_DISTURBED, REST
 from poise.data.packet import Output, Sample
 from poise.estimators.self_calibrating.model import (
+    ACC_DELAY,
     BIAS,
-    DELAY,
+    COLUMNS,
     FIELD,
     IRON,
+    MAG_DELAY,
+    ROWS,
     SCALE,
+    SENSOR,
     SIZE,
     TURN,
     VELOCITY,
     Floats,
+    H,
     Noise,
+    Sensor,
+    Sums,
+    X,
+    add_turned,
+    begin_block,
     correct,
+    correct_one,
+    forget,
     grow,
-    measure_one,
+    put,
+    put_sensor,
+    put_sums,
+    sensor_of,
+    sums_of,
     symmetrise,
+    three,
+    vector,
 )
 from poise.math.compiled import compiled
 from poise.math.matrices import Mat3, matrix, transpose
 from poise.math.quaternions import Quat, attitude_of, exp, normalize, renormalized
-from poise.math.vectors import ABSENT, ZERO, Vec3, cross, dot, norm, present, within
+from poise.math.vectors import UP, ZERO, Vec3, cross, dot, norm, present, within
 
-_NO_TURN = Mat3(ZERO, ZERO, ZERO)
-
-
-class Sums(NamedTuple):
-    """What a block adds up."""
-
-    time: float  # s
-    count: float  # samples
-    rotation: Mat3  # S_R = Σ R dt
-    force: Vec3  # S_f = Σ R f dt
-    force_time: float  # s that specific force stands for
-    gyr: Vec3  # Σ of the raw rate
-    rate_square: float  # Σ |ω|²
-    excess_square: float  # Σ |R f − g e_z|²
-    mags: float  # magnetometer samples
-    mag_time: float
-    off: Vec3  # Σ R₀ (m − b − u); before the field is known Σ R m
-    to_iron: Mat3  # Σ R₀
-    to_delay: Vec3  # Σ R₀ (ω × u)
-
-
-NOTHING = Sums(0.0, 0.0, _NO_TURN, ZERO, 0.0, ZERO, 0.0, 0.0, 0.0, 0.0, ZERO, _NO_TURN, ZERO)
+_FIRST_SPREAD = 1e-4  # (share of the field)², before any has been measured
+_FAR = radians(30.0)  # a heading further from the magnetometer's is beyond what a linear correction can do
 
 
 class State(NamedTuple):
-    attitude: Quat
-    bias: Vec3
-    rate: Vec3
-    scale: Mat3
-    velocity: Vec3
-    field: Vec3
-    iron: Vec3
-    delay: float
-    length: float  # of the field, in the magnetometer's unit; 0 while unknown
-    spread: float  # s²
-    over: float  # s
-    rested: bool
-    mean_gyr: Vec3
+    attitude: Quat  # body to Earth with magnetic north
+    bias: Vec3  # rad/s
+    rate: Vec3  # ω, rad/s
+    mean_gyr: Vec3  # what stillness is judged against
     mean_acc: Vec3
-    still: float
-    sums: Sums
-    S_A: Floats  # (3, 9)
-    P: Floats  # (24, 24)
-    work: Floats  # (3, 24)
+    still: float  # s
+    begun: bool  # a block has been closed
+    P: Floats  # (35, 28): the errors' covariance and, below it, the rest of the memory; see model.py
 
 
 class SelfCalibrating(NamedTuple):
-    """x"""
+    """Our flagship: learns bias, scale, misalignment, hard iron and delays of its sensors, and says how sure it is."""
 
-    block: Annotated[float, "s", "time between two updates of the covariance", (1e-3, 1.0)] = 0.05
-    gyr_noise: Annotated[float, "rad/s/√Hz", "gyroscope white noise σ_g"] = 1e-4
-    scale_noise: Annotated[float, "√s", "k: noise density per rate of what A does not explain"] = 1e-4
-    bias_walk_rest: Annotated[float, "rad/s/√s", "random walk of the bias at rest"] = 2e-6
-    bias_walk: Annotated[float, "rad/s/√s", "random walk of the bias in motion"] = 2e-4
-    motion_bias: Annotated[float, "rad/s", "how far the bias in motion is from that at rest"] = 0.0
-    centre: Annotated[float, "1", "x"] = 0.0
-    coning: Annotated[float, "1", "x"] = 0.0
-    acc_noise: Annotated[float, "m/s²/√Hz", "accelerometer noise σ_v"] = 0.01
-    motion_noise: Annotated[float, "√s", "κ: noise density per specific force beyond gravity"] = 0.01
-    speed: Annotated[float, "m/s·√s", "how far the pseudo-velocity strays from 0"] = 0.3
-    speed_tail: Annotated[float, "1", "ν of the Student-t distribution that it has", (0.1, 1e6)] = 1e4
-    field_walk: Annotated[float, "1/√s", "random walk of the field's north and up"] = 3e-5
-    iron_walk: Annotated[float, "1/√s", "random walk of the hard iron"] = 1e-3
-    field_time: Annotated[float, "s", "how long an error of the field lasts"] = 3.0
-    spread_time: Annotated[float, "s", "over which the field's errors are averaged"] = 10.0
-    mag_rate_noise: Annotated[float, "s", "magnetometer error per rate"] = 1e-3
-    rest_noise: Annotated[float, "rad/s", "mean rate of a block at rest about the bias"] = 3e-4
-    rest_speed: Annotated[float, "m/s", "pseudo-velocity at rest"] = 0.01
-    initial_scale: Annotated[float, "1", "A at the start"] = 0.004
-    initial_delay: Annotated[float, "s", "tau0"] = 0.008
-    initial_delay_sigma: Annotated[float, "s", "tau0 sigma"] = 0.008
-    initial_iron: Annotated[float, "1", "hard iron at start"] = 1e-3
-    jump_nis: Annotated[float, "1", "nis"] = 1e9
-    jump_time: Annotated[float, "s", "time"] = 0.1
-    jump_iron: Annotated[float, "1", "how far"] = 2.0
-    sure_tilt: Annotated[float, "rad", "x"] = radians(2.0)
-    gravity: Annotated[float, "m/s²", "length of gravity", (0.1, 100.0)] = 9.80665
+    block: Annotated[float, "s", "time between two corrections", (1e-3, 1.0)] = 0.05
+    gyr_noise: Annotated[float, "rad/s/√Hz", "gyroscope white noise σ_g", (0.0, 10.0)] = 1e-4
+    scale_noise: Annotated[float, "√s", "k: noise per rate, of what A does not explain", (0.0, 10.0)] = 1e-4
+    bias_walk: Annotated[float, "rad/s/√s", "random walk of the bias in motion", (0.0, 10.0)] = 2e-4
+    bias_walk_rest: Annotated[float, "rad/s/√s", "random walk of the bias at rest", (0.0, 10.0)] = 2e-6
+    acc_noise: Annotated[float, "m/s²/√Hz", "accelerometer noise σ_v", (1e-9, 1e3)] = 0.01
+    motion_noise: Annotated[float, "√s", "κ: noise per specific force beyond gravity", (0.0, 1e3)] = 0.01
+    speed: Annotated[float, "m/s·√s", "how far the pseudo-velocity strays from 0, over one second", (1e-6, 1e6)] = 0.35
+    field_time: Annotated[float, "s", "how long an error of the field lasts", (1e-3, 1e6)] = 2.5
+    spread_time: Annotated[float, "s", "over which the field's errors are averaged", (1e-3, 1e6)] = 10.0
+    mag_rate_noise: Annotated[float, "s", "error of the field per rate of turn", (0.0, 10.0)] = 1e-3
+    field_walk: Annotated[float, "1/√s", "random walk of the field's north and up, in lengths of it", (0.0, 10.0)] = 3e-5
+    iron_walk: Annotated[float, "1/√s", "random walk of the hard iron, in lengths of the field", (0.0, 10.0)] = 1e-3
+    local_field: Annotated[float, "rad", "how far magnetic north here may be from that of the region", (0.0, pi)] = (
+        radians(1.5)
+    )
+    initial_tilt: Annotated[float, "rad", "σ of pitch and roll at the start", (1e-6, 10.0)] = radians(5.4)
+    initial_heading: Annotated[float, "rad", "σ of the heading at the start", (1e-6, 10.0)] = radians(60.0)
+    initial_bias: Annotated[float, "rad/s", "σ of the gyroscope's bias at the start", (1e-9, 10.0)] = radians(1.0)
+    initial_scale: Annotated[float, "1", "σ of each element of A at the start", (0.0, 1.0)] = 0.0035
+    initial_iron: Annotated[float, "1", "σ of the hard iron at the start, in lengths of the field", (0.0, 10.0)] = 1e-3
+    mag_delay: Annotated[float, "s", "expected delay of the magnetometer behind the gyroscope", (-1.0, 1.0)] = 0.008
+    mag_delay_sigma: Annotated[float, "s", "σ of that delay", (0.0, 1.0)] = 0.008
+    acc_delay_sigma: Annotated[
+        float, "s", "σ of the accelerometer's delay, beside half a sampling interval", (0.0, 1.0)
+    ] = 0.001
+    rest_time: Annotated[float, "s", "how long the sensor must hold still before that counts as rest"] = 1.5
+    rest_gyr: Annotated[float, "rad/s", "largest mean rate, and distance from it, at rest, per axis"] = radians(2.0)
+    rest_acc: Annotated[float, "m/s²", "largest distance of a still specific force from its mean, per axis"] = 0.5
+    rest_noise: Annotated[float, "rad/s", "how far a block's mean rate at rest is from the bias", (1e-9, 10.0)] = 3e-4
+    rest_speed: Annotated[float, "m/s", "pseudo-velocity of a block at rest", (1e-9, 1e3)] = 0.01
+    sure_tilt: Annotated[float, "rad", "the magnetometer corrects the tilt too while that is less sure", (0.0, 10.0)] = (
+        radians(2.0)
+    )
+    gyr_range: Annotated[float, "rad/s", "end of the gyroscope's range: rates from 98 % of it on are clipped"] = radians(
+        2000.0
+    )
+    lead: Annotated[float, "s", "the attitude given out is that of now + lead", (-1.0, 1.0)] = 0.0
+    gravity: Annotated[float, "m/s²", "length of gravity g", (0.1, 100.0)] = 9.80665
     declination: Annotated[float, "rad", "true heading = magnetic heading + D, east positive", (-pi, pi)] = 0.0
 
     @property
     def learns_bias(self) -> bool:
+        """It does, in motion too: RestBias would take from it what it is to find."""
         return True
 
     def start(self, sample: Sample, bias: Vec3) -> State:
-        attitude = attitude_of(sample.acc, sample.mag, self.declination)
-        P = np.zeros((SIZE, SIZE))
-        for k in range(2):
-            P[TURN + k, TURN + k] = radians(5.4) ** 2
-            P[FIELD + k, FIELD + k] = 0.25
-        P[TURN + 2, TURN + 2] = radians(60.0) ** 2
-        for k in range(3):
-            P[BIAS + k, BIAS + k] = radians(1.0) ** 2
-            P[VELOCITY + k, VELOCITY + k] = 1.0
-            P[IRON + k, IRON + k] = self.initial_iron**2
-        for k in range(9):
-            P[SCALE + k, SCALE + k] = self.initial_scale**2
-        P[DELAY, DELAY] = self.initial_delay_sigma**2
-        return State(
-            attitude, bias, ZERO, _NO_TURN, ZERO, ZERO, ZERO, self.initial_delay, 0.0, 1e-4, 0.0, False,
-            sample.gyr, sample.acc, 0.0, NOTHING, np.zeros((3, 9)), P, np.zeros((3, SIZE)),
-        )  # fmt: skip
+        """1. Attitude of the first acc and mag; everything else at what is expected of a sensor."""
+        P = np.zeros((ROWS, COLUMNS))
+        forget(P, BIAS, 3, self.initial_bias**2)
+        forget(P, SCALE, 9, self.initial_scale**2)
+        forget(P, FIELD, 2, 0.25)
+        forget(P, IRON, 3, self.initial_iron**2)
+        forget(P, MAG_DELAY, 1, self.mag_delay_sigma**2)
+        forget(P, ACC_DELAY, 1, self.acc_delay_sigma**2)
+        unsure_attitude(self, P)
+        none = Mat3(ZERO, ZERO, ZERO)
+        put_sensor(P, Sensor(none, ZERO, ZERO, ZERO, self.mag_delay, 0.0, 0.0, _FIRST_SPREAD))
+        attitude = attitude_of(sample.acc, sample.mag, 0.0)
+        return State(attitude, bias, ZERO, sample.gyr, sample.acc, 0.0, False, P)
+
+    def restart(self, state: State, sample: Sample, bias: Vec3) -> State:
+        """Attitude from acc and mag anew; what was learned of the sensors stays."""
+        del bias  # the state has it
+        P = state.P
+        unsure_attitude(self, P)
+        begin_block(P)
+        put(P, SENSOR, 9, ZERO)
+        attitude = attitude_of(sample.acc, sample.mag, 0.0)
+        return State(attitude, state.bias, ZERO, sample.gyr, sample.acc, 0.0, state.begun, P)
 
     def step(self, state: State, sample: Sample) -> State:
-        T, f, m = sample.dt, sample.acc, sample.mag
-        # Strapdown
+        T, f, m, P = sample.dt, sample.acc, sample.mag, state.P
+        s, known = sums_of(P), sensor_of(P)
+
+        # 2. Strapdown
         g = sample.gyr - state.bias
-        turned: Vec3 = state.scale @ g
-        w = g + turned
-        c = self.centre
-        mid = (1.0 - 0.5 * c) * w + 0.5 * c * state.rate
-        q = renormalized(state.attitude * exp(T * mid + (self.coning * T * T / 12.0) * cross(state.rate, w)))
+        more: Vec3 = known.scale @ g
+        w = g + more
+        q = renormalized(state.attitude * exp(T * w))
         R = matrix(q)
 
-        # Rest
+        # 3. What the block adds up
+        add_turned(P, R, T * g)
+        clipped = s.clipped
+        if not within(sample.gyr, 0.98 * self.gyr_range):
+            clipped = clipped + T * clipped_columns(R, sample.gyr, 0.98 * self.gyr_range)
         share = T / (0.5 + T)
         mean_gyr = state.mean_gyr + share * (sample.gyr - state.mean_gyr)
-        still = within(sample.gyr - mean_gyr, 0.035) and within(mean_gyr, 0.035)
+        still = within(sample.gyr - mean_gyr, self.rest_gyr) and within(mean_gyr, self.rest_gyr)
         mean_acc = state.mean_acc
-
-        # Sums
-        s = state.sums
-        S_A = state.S_A
-        for i in range(3):
-            row = R.x if i == 0 else (R.y if i == 1 else R.z)
-            gx, gy, gz = T * g.x, T * g.y, T * g.z
-            S_A[i, 0] += row.x * gx
-            S_A[i, 1] += row.x * gy
-            S_A[i, 2] += row.x * gz
-            S_A[i, 3] += row.y * gx
-            S_A[i, 4] += row.y * gy
-            S_A[i, 5] += row.y * gz
-            S_A[i, 6] += row.z * gx
-            S_A[i, 7] += row.z * gy
-            S_A[i, 8] += row.z * gz
-        force, force_time, excess = s.force, s.force_time, s.excess_square
+        force, force_late, force_time, excess = s.force, s.force_late, s.force_time, s.excess_square
         if present(f):
             mean_acc = mean_acc + share * (f - mean_acc)
-            still = still and within(f - mean_acc, 0.5)
-            F: Vec3 = R @ f
-            force = force + sample.acc_dt * F
+            still = still and within(f - mean_acc, self.rest_acc)
+            earth: Vec3 = R @ turned_back(f, w, known.acc_delay)
+            moved: Vec3 = R @ cross(w, f)
+            force, force_late = force + sample.acc_dt * earth, force_late - sample.acc_dt * moved
             force_time += sample.acc_dt
-            beyond = F - Vec3(0.0, 0.0, self.gravity)
+            beyond = earth - self.gravity * UP
             excess += dot(beyond, beyond)
         mags, mag_time, off, to_iron, to_delay = s.mags, s.mag_time, s.off, s.to_iron, s.to_delay
         if present(m):
-            mags += 1.0
-            mag_time += sample.mag_dt
-            if state.length > 0.0:
-                q0 = q * exp((-state.delay) * w)
-                R0 = matrix(q0)
-                u: Vec3 = transpose(R0) @ state.field
-                left: Vec3 = R0 @ (m / state.length - state.iron - u)
-                late: Vec3 = R0 @ cross(w, u)
-                off, to_iron, to_delay = off + left, to_iron + R0, to_delay + late
+            mags, mag_time = mags + 1.0, mag_time + sample.mag_dt
+            if known.length > 0.0:
+                u: Vec3 = transpose(R) @ known.field
+                left: Vec3 = R @ turned_back(m / known.length - known.iron, w, known.mag_delay)
+                late: Vec3 = R @ cross(w, u)
+                off, to_iron, to_delay = off + left - known.field, to_iron + R, to_delay + late
             else:
-                inside: Vec3 = R @ m
-                off = off + inside
+                seen: Vec3 = R @ m
+                off = off + seen
         sums = Sums(
-            s.time + T, s.count + 1.0, s.rotation + T * R, force, force_time, s.gyr + sample.gyr,
-            s.rate_square + dot(w, w), excess, mags, mag_time, off, to_iron, to_delay,
+            s.time + T, s.count + 1.0, s.rotation + T * R, force, force_late, force_time, s.gyr + sample.gyr,
+            s.rate_square + dot(w, w), excess, mags, mag_time, off, to_iron, to_delay, clipped,
         )  # fmt: skip
-        after = State(
-            q, state.bias, w, state.scale, state.velocity, state.field, state.iron, state.delay, state.length,
-            state.spread, state.over, state.rested, mean_gyr, mean_acc, state.still + T if still else 0.0, sums, S_A, state.P, state.work,
-        )  # fmt: skip
+        seconds = state.still + T if still else 0.0
         if sums.time < self.block - 0.5 * T:
-            return after
-        return block_closed(self, after)
+            put_sums(P, sums)
+            return State(q, state.bias, w, mean_gyr, mean_acc, seconds, state.begun, P)
+        return closed(self, State(q, state.bias, w, mean_gyr, mean_acc, seconds, state.begun, P), sums, known)
 
     def output(self, state: State, sample: Sample) -> Output:
+        """The attitude, after *lead*, with true north; sigma about the Earth's axes from P."""
+        q = state.attitude
+        if self.lead != 0.0:
+            q = q * exp(self.lead * state.rate)
+        if self.declination != 0.0:
+            q = exp(-self.declination * UP) * q
         P = state.P
-        sigma = Vec3(sqrt(P[0, 0]), sqrt(P[1, 1]), sqrt(P[2, 2]))
-        bias_sigma = Vec3(sqrt(P[3, 3]), sqrt(P[4, 4]), sqrt(P[5, 5]))
-        return Output(
-            sample.dt, state.attitude, state.rate, state.bias, sigma, bias_sigma, REST if state.still >= 1.5 else 0
-        )
+        heading = float(P[2, 2]) + (self.local_field**2 if float(P[SENSOR, 20]) > 0.0 else 0.0)
+        sigma = Vec3(_sigma(float(P[0, 0])), _sigma(float(P[1, 1])), _sigma(heading))
+        bias_sigma = Vec3(sqrt(float(P[3, 3])), sqrt(float(P[4, 4])), sqrt(float(P[5, 5])))
+        flags = REST if state.still >= self.rest_time else 0
+        if float(P[SENSOR, 21]) > 0.05**2:
+            flags |= MAG_DISTURBED
+        if not within(sample.gyr, 0.98 * self.gyr_range):
+            flags |= GYR_CLIPPED
+        return Output(sample.dt, q, state.rate, state.bias, sigma, bias_sigma, flags)
 
 
 @compiled
-def block_closed(method: SelfCalibrating, state: State) -> State:
-    P, work, s, S_A = state.P, state.work, state.sums, state.S_A
-    T, mean_rate_square = s.time, s.rate_square / s.count
-    rest = state.still >= 1.5
+def _sigma(variance: float) -> float:
+    """rad; an angle of which nothing is known is not further off than half a turn."""
+    return min(sqrt(variance), pi)
+
+
+@compiled
+def unsure_attitude(method: SelfCalibrating, P: Floats) -> None:
+    """P of an attitude by one sample, and of a velocity of which nothing is known."""
+    forget(P, TURN, 2, method.initial_tilt**2)
+    forget(P, TURN + 2, 1, method.initial_heading**2)
+    forget(P, VELOCITY, 3, 1.0)
+
+
+@compiled
+def turned_back(v: Vec3, w: Vec3, delay: float) -> Vec3:
+    """exp(−ω delay) v, to second order: a vector measured *delay* ago, in the body of now."""
+    turn = (-delay) * w
+    once = cross(turn, v)
+    return v + once + 0.5 * cross(turn, once)
+
+
+@compiled
+def clipped_columns(R: Mat3, gyr: Vec3, limit: float) -> Mat3:
+    """The columns of R of the axes whose rate is at the end of the range."""
+    x = 1.0 if abs(gyr.x) > limit else 0.0
+    y = 1.0 if abs(gyr.y) > limit else 0.0
+    z = 1.0 if abs(gyr.z) > limit else 0.0
+    return Mat3(
+        Vec3(x * R.x.x, y * R.x.y, z * R.x.z), Vec3(x * R.y.x, y * R.y.y, z * R.y.z), Vec3(x * R.z.x, y * R.z.y, z * R.z.z)
+    )
+
+
+@compiled
+def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> State:
+    """The state after the end of a block: 4. covariance, 5. rest, 6. pseudo-velocity, 7. magnetometer, 8. inject."""
+    P = state.P
+    T, rate_square = s.time, s.rate_square / s.count
+    rest = state.still >= method.rest_time
+
+    # 4. Covariance
     walk = method.bias_walk_rest if rest else method.bias_walk
     noise = Noise(
-        (method.gyr_noise**2 + method.scale_noise**2 * mean_rate_square) * T,
+        (method.gyr_noise**2 + method.scale_noise**2 * rate_square) * T,
         walk**2 * T,
         (method.acc_noise**2 + method.motion_noise**2 * s.excess_square / s.count) * T,
         method.field_walk**2 * T,
         method.iron_walk**2 * T,
     )
-    grow(P, s.rotation, S_A, s.force, noise)
-    if state.rested and not rest:
-        for k in range(3):
-            P[BIAS + k, BIAS + k] += method.motion_bias**2
-    v = state.velocity + s.force - Vec3(0.0, 0.0, method.gravity * s.force_time)
-    x = work[1]
+    grow(P, s, noise)
+    add_clipping(P, s.clipped, 0.4 * method.gyr_range)
+    if not state.begun:  # half a sampling interval: whether a sample is the mean before its stamp or around it
+        P[ACC_DELAY, ACC_DELAY] += (0.5 * T / s.count) ** 2
+    v = known.velocity + s.force - (method.gravity * s.force_time) * UP
     for j in range(SIZE):
-        x[j] = 0.0
-    for i in range(3):
-        for k in range(9):
-            S_A[i, k] = 0.0
-    # 1. rest
+        P[X, j] = 0.0
+
+    # 5. At rest the mean rate is the bias, 6. the pseudo-velocity is near 0
     if rest:
-        off = (1.0 / s.count) * s.gyr - state.bias
-        at_rest = method.rest_noise**2 * (0.05 / T)
-        measure_one(P, work, BIAS, off.x, at_rest)
-        measure_one(P, work, BIAS + 1, off.y, at_rest)
-        measure_one(P, work, BIAS + 2, off.z, at_rest)
-    # 2. pseudo-velocity
+        still = (1.0 / s.count) * s.gyr - state.bias
+        variance = method.rest_noise**2 * method.block / T
+        correct_one(P, BIAS, still.x, variance)
+        correct_one(P, BIAS + 1, still.y, variance)
+        correct_one(P, BIAS + 2, still.z, variance)
     if s.force_time > 0.0:
-        wide = method.rest_speed**2 * (0.05 / T) if rest else method.speed**2 / T
-        for k in range(3):
-            r = -(v.x if k == 0 else (v.y if k == 1 else v.z))
-            R = wide
-            if not rest:
-                left = r - x[VELOCITY + k]
-                nis = left * left / (P[VELOCITY + k, VELOCITY + k] + wide)
-                R = wide * (method.speed_tail + nis) / (method.speed_tail + 1.0)
-            measure_one(P, work, VELOCITY + k, r, R)
-    # 3. magnetometer
-    q, field, length, spread, over = state.attitude, state.field, state.length, state.spread, state.over
+        variance = method.rest_speed**2 * method.block / T if rest else method.speed**2 / s.force_time
+        correct_one(P, VELOCITY, -v.x, variance)
+        correct_one(P, VELOCITY + 1, -v.y, variance)
+        correct_one(P, VELOCITY + 2, -v.z, variance)
+
+    # 7. Magnetometer
+    q, field, length, spread = state.attitude, known.field, known.length, known.spread
     if s.mags > 0.0:
         e = (1.0 / s.mags) * s.off
         if length == 0.0:
             length = norm(e)
-            level = sqrt(e.x * e.x + e.y * e.y) / length
-            turn = atan2(e.x, e.y) - method.declination
-            field = Vec3(0.0, level, e.z / length)
-            q = exp(Vec3(0.0, 0.0, turn)) * q
+            field = Vec3(0.0, sqrt(e.x * e.x + e.y * e.y) / length, e.z / length)
+            q = exp(atan2(e.x, e.y) * UP) * q
         else:
-            share = T / (method.spread_time + T)
+            share = s.mag_time / (method.spread_time + s.mag_time)
             spread += share * (min(dot(e, e) / 3.0, 9.0 * spread) - spread)
-            R = (method.field_time * spread + 0.05 * method.mag_rate_noise**2 * mean_rate_square) / s.mag_time
-            unsure = P[0, 0] + P[1, 1] > 2.0 * method.sure_tilt**2
-            H_b, H_t = (1.0 / s.mags) * s.to_iron, (1.0 / s.mags) * s.to_delay
-            nis = 0.0
-            h = work[0]
-            for k in range(3):
-                for j in range(SIZE):
-                    h[j] = 0.0
-                row = H_b.x if k == 0 else (H_b.y if k == 1 else H_b.z)
-                h[IRON], h[IRON + 1], h[IRON + 2] = row.x, row.y, row.z
-                if k == 0:
-                    h[TURN + 2] = field.y
-                    if unsure:
-                        h[TURN + 1] = -field.z
-                    h[DELAY] = H_t.x
-                    nis += correct(P, work, e.x, R)
-                elif k == 1:
-                    h[FIELD] = 1.0
-                    if unsure:
-                        h[TURN] = field.z
-                    h[DELAY] = H_t.y
-                    nis += correct(P, work, e.y, R)
-                else:
-                    h[FIELD + 1] = 1.0
-                    if unsure:
-                        h[TURN] = -field.y
-                    h[DELAY] = H_t.z
-                    nis += correct(P, work, e.z, R)
-            over = over + T if nis > method.jump_nis else 0.0
-            if over > method.jump_time:
-                over = 0.0
-                for k in range(3):
-                    P[IRON + k, IRON + k] += method.jump_iron**2
+            variance = (method.field_time * spread + method.block * method.mag_rate_noise**2 * rate_square) / s.mag_time
+            all_axes = P[0, 0] + P[1, 1] > 2.0 * method.sure_tilt**2
+            correct_field(P, e, field, (1.0 / s.mags) * s.to_iron, (1.0 / s.mags) * s.to_delay, all_axes, variance)
     symmetrise(P)
-    q = normalize(exp(Vec3(x[0], x[1], x[2])) * q)
-    A = state.scale
-    scale = Mat3(
-        A.x + Vec3(x[SCALE], x[SCALE + 1], x[SCALE + 2]),
-        A.y + Vec3(x[SCALE + 3], x[SCALE + 4], x[SCALE + 5]),
-        A.z + Vec3(x[SCALE + 6], x[SCALE + 7], x[SCALE + 8]),
+
+    # 8. Inject
+    after = Sensor(
+        known.scale + three(P, X, SCALE),
+        v + vector(P, X, VELOCITY),
+        field + Vec3(0.0, float(P[X, FIELD]), float(P[X, FIELD + 1])),
+        known.iron + vector(P, X, IRON),
+        known.mag_delay + float(P[X, MAG_DELAY]),
+        known.acc_delay + float(P[X, ACC_DELAY]),
+        length,
+        spread,
     )
-    return State(
-        q,
-        state.bias + Vec3(x[BIAS], x[BIAS + 1], x[BIAS + 2]),
-        state.rate,
-        scale,
-        v + Vec3(x[VELOCITY], x[VELOCITY + 1], x[VELOCITY + 2]),
-        field + Vec3(0.0, x[FIELD], x[FIELD + 1]),
-        state.iron + Vec3(x[IRON], x[IRON + 1], x[IRON + 2]),
-        state.delay + x[DELAY],
-        length, spread, over, rest, state.mean_gyr, state.mean_acc, state.still, NOTHING, S_A, P, work,
-    )  # fmt: skip
+    put_sensor(P, after)
+    begin_block(P)
+    q = normalize(exp(vector(P, X, TURN)) * q)
+    bias = state.bias + vector(P, X, BIAS)
+    return State(q, bias, state.rate, state.mean_gyr, state.mean_acc, state.still, True, P)
+
+
+@compiled
+def correct_field(
+    P: Floats, e: Vec3, field: Vec3, to_iron: Mat3, to_delay: Vec3, all_axes: bool, variance: float
+) -> None:
+    """The three numbers of the field's error e = [h]× ε + δh + R₀ δb + R₀ (ω × u) δτ (eq. 14).
+
+    Of [h]× only what turns the heading, unless the tilt is unsure: a disturbed field is not to tilt the horizon.
+    """
+    for k in range(3):
+        for j in range(SIZE):
+            P[H, j] = 0.0
+        row = to_iron.x if k == 0 else (to_iron.y if k == 1 else to_iron.z)
+        put(P, H, IRON, row)
+        if k == 0:
+            P[H, TURN + 2] = field.y
+            P[H, TURN + 1] = -field.z if all_axes else 0.0
+            P[H, MAG_DELAY] = to_delay.x
+            correct(P, e.x, variance)
+        elif k == 1:
+            P[H, TURN] = field.z if all_axes else 0.0
+            P[H, FIELD] = 1.0
+            P[H, MAG_DELAY] = to_delay.y
+            correct(P, e.y, variance)
+        else:
+            P[H, TURN] = -field.y if all_axes else 0.0
+            P[H, FIELD + 1] = 1.0
+            P[H, MAG_DELAY] = to_delay.z
+            correct(P, e.z, variance)
+
+
+@compiled
+def add_clipping(P: Floats, clipped: Mat3, error: float) -> None:
+    """Q_ε += V Vᵀ error²: a clipped rate is wrong by any part of the range, the same way for as long as it lasts (eq. 11)."""
+    C: Mat3 = (error * error) * (clipped @ transpose(clipped))
+    P[0, 0] += C.x.x
+    P[0, 1] += C.x.y
+    P[0, 2] += C.x.z
+    P[1, 0] += C.y.x
+    P[1, 1] += C.y.y
+    P[1, 2] += C.y.z
+    P[2, 0] += C.z.x
+    P[2, 1] += C.z.y
+    P[2, 2] += C.z.z

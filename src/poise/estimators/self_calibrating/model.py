@@ -1,8 +1,9 @@
-"""The flagship's model: what is estimated, how errors grow over a block, and how one measured number corrects them.
+"""What SelfCalibrating estimates, how its errors grow over a block, and how one measured number corrects them.
 
-Errors, 24 numbers in this order, each true − estimated, the attitude's as a small turn ε about the Earth's axes
-(R_true = Exp(ε) R): ε (3), gyroscope bias (3), gyroscope scale and misalignment A (9, by rows), pseudo-velocity v (3),
-field h (north and up), hard iron (3), magnetometer delay τ. Equation numbers are those of ``docs/methods/self-calibrating.md``.
+Errors, 25 numbers in this order, each true − estimated; the attitude's is a small turn ε about the Earth's axes,
+R_true = Exp(ε) R: ε (3), gyroscope bias (3), gyroscope scale and misalignment A (9, by rows), pseudo-velocity v (3),
+field h (north and up), hard iron (3), delay of the magnetometer and of the accelerometer behind the gyroscope.
+Equation numbers are those of ``docs/methods/self-calibrating.md``.
 """
 
 from __future__ import annotations
@@ -14,62 +15,108 @@ from numpy.typing import NDArray
 
 from poise.math.compiled import compiled
 from poise.math.matrices import Mat3
-from poise.math.vectors import Vec3
+from poise.math.vectors import ZERO, Vec3
 
 Floats = NDArray[np.float64]
 
-TURN, BIAS, SCALE, VELOCITY, FIELD, IRON, DELAY, SIZE = 0, 3, 6, 15, 18, 20, 23, 24
+# The errors' places.
+TURN, BIAS, SCALE, VELOCITY, FIELD, IRON, MAG_DELAY, ACC_DELAY, SIZE = 0, 3, 6, 15, 18, 20, 23, 24, 25
+# One table is the memory: P in its first 25 rows, then these. A NamedTuple of as many numbers would be copied at every step.
+H, X, ROOM = 25, 26, 27  # of a correction: what is measured of the errors, their estimate, P h
+TURNED = 28  # three rows: S_A = Σ R[:, i] g_j dt, column 3 i + j
+SUMS, SENSOR, ROWS, COLUMNS = 31, 34, 35, 28
+
+_NONE = Mat3(ZERO, ZERO, ZERO)
+
+
+class Sums(NamedTuple):
+    """What a block adds up, sample by sample; R is the attitude's matrix, dt the time a sample stands for."""
+
+    time: float  # s
+    count: float  # samples
+    rotation: Mat3  # S_R = Σ R dt
+    force: Vec3  # S_f = Σ R f dt, at the accelerometer's instant
+    force_late: Vec3  # ∂S_f/∂(delay of the accelerometer) = −Σ R (ω × f) dt
+    force_time: float  # s of specific force
+    gyr: Vec3  # Σ of the rate as measured
+    rate_square: float  # Σ |ω|²
+    excess_square: float  # Σ |R f − g e_z|²
+    mags: float  # magnetometer samples
+    mag_time: float  # s that they stand for
+    off: Vec3  # Σ R₀ (m − b − u), R₀ the attitude at the magnetometer's instant; Σ R m before the field is known
+    to_iron: Mat3  # Σ R₀
+    to_delay: Vec3  # Σ R₀ (ω × u)
+    clipped: Mat3  # Σ R dt, of the columns whose rate was at the end of the range
+
+
+class Sensor(NamedTuple):
+    """What is known of the sensor and the place, beside the bias."""
+
+    scale: Mat3  # A: ω = (I + A)(gyr − bias)
+    velocity: Vec3  # m/s, pseudo
+    field: Vec3  # h, in lengths of the field: east is 0
+    iron: Vec3  # b, in lengths of the field, body frame
+    mag_delay: float  # s behind the gyroscope
+    acc_delay: float
+    length: float  # of the field in the magnetometer's unit; 0 while unknown
+    spread: float  # s²: mean square of the field's errors, per axis
+
+
+NOTHING = Sums(0.0, 0.0, _NONE, ZERO, ZERO, 0.0, ZERO, 0.0, 0.0, 0.0, 0.0, ZERO, _NONE, ZERO, _NONE)
 
 
 class Noise(NamedTuple):
-    """Variances that a block adds."""
+    """Variances that a block adds (eq. 10)."""
 
     turn: float  # rad², about each axis
     bias: float  # (rad/s)²
     velocity: float  # (m/s)²
-    field: float  # of the field's length = 1
+    field: float  # of a field of length 1
     iron: float
 
 
 @compiled
-def grow(P: Floats, S_R: Mat3, S_A: Floats, S_f: Vec3, noise: Noise) -> None:
-    """P ← F P Fᵀ + Q over a block, in place (eq. 7–9).
+def grow(P: Floats, sums: Sums, noise: Noise) -> None:
+    """P ← F P Fᵀ + Q over a block, in place (eq. 9, 10).
 
-    Only the rows of ε and v of F differ from the identity: ε⁺ = ε − S_R δb + S_A δA and v⁺ = v − [S_f]× ε.
+    Only the rows of ε and v of F differ from the identity: ε⁺ = ε − S_R δb + S_A δA and
+    v⁺ = v − [S_f]× ε + S_l δτ_a.
     """
-    fx, fy, fz = S_f
+    S_R = sums.rotation
+    fx, fy, fz = sums.force
+    lx, ly, lz = sums.force_late
     for j in range(SIZE):  # rows of v first: they take the old ε
-        x, y, z = P[TURN, j], P[TURN + 1, j], P[TURN + 2, j]
-        P[VELOCITY, j] += fz * y - fy * z
-        P[VELOCITY + 1, j] += fx * z - fz * x
-        P[VELOCITY + 2, j] += fy * x - fx * y
+        x, y, z, late = P[TURN, j], P[TURN + 1, j], P[TURN + 2, j], P[ACC_DELAY, j]
+        P[VELOCITY, j] += fz * y - fy * z + lx * late
+        P[VELOCITY + 1, j] += fx * z - fz * x + ly * late
+        P[VELOCITY + 2, j] += fy * x - fx * y + lz * late
     for i in range(3):
         row = S_R.x if i == 0 else (S_R.y if i == 1 else S_R.z)
         for j in range(SIZE):
-            P[i, j] -= row.x * P[BIAS, j] + row.y * P[BIAS + 1, j] + row.z * P[BIAS + 2, j]
+            P[TURN + i, j] -= row.x * P[BIAS, j] + row.y * P[BIAS + 1, j] + row.z * P[BIAS + 2, j]
         for k in range(9):
-            weight = S_A[i, k]
+            weight = P[TURNED + i, k]
             for j in range(SIZE):
-                P[i, j] += weight * P[SCALE + k, j]
-    # The same for the columns. Where the row is none of the six, symmetry has the result already.
+                P[TURN + i, j] += weight * P[SCALE + k, j]
+    # Then the columns. In a row that is none of the six, symmetry has the result already.
     for i in range(SIZE):
         if TURN + 3 <= i < VELOCITY or i >= FIELD:
             for k in range(3):
                 P[i, TURN + k] = P[TURN + k, i]
                 P[i, VELOCITY + k] = P[VELOCITY + k, i]
         else:
-            x, y, z = P[i, TURN], P[i, TURN + 1], P[i, TURN + 2]
-            P[i, VELOCITY] += fz * y - fy * z
-            P[i, VELOCITY + 1] += fx * z - fz * x
-            P[i, VELOCITY + 2] += fy * x - fx * y
+            x, y, z, late = P[i, TURN], P[i, TURN + 1], P[i, TURN + 2], P[i, ACC_DELAY]
+            P[i, VELOCITY] += fz * y - fy * z + lx * late
+            P[i, VELOCITY + 1] += fx * z - fz * x + ly * late
+            P[i, VELOCITY + 2] += fy * x - fx * y + lz * late
             bx, by, bz = P[i, BIAS], P[i, BIAS + 1], P[i, BIAS + 2]
             x -= S_R.x.x * bx + S_R.x.y * by + S_R.x.z * bz
             y -= S_R.y.x * bx + S_R.y.y * by + S_R.y.z * bz
             z -= S_R.z.x * bx + S_R.z.y * by + S_R.z.z * bz
             for k in range(9):
-                x += S_A[0, k] * P[i, SCALE + k]
-                y += S_A[1, k] * P[i, SCALE + k]
-                z += S_A[2, k] * P[i, SCALE + k]
+                x += P[TURNED, k] * P[i, SCALE + k]
+                y += P[TURNED + 1, k] * P[i, SCALE + k]
+                z += P[TURNED + 2, k] * P[i, SCALE + k]
             P[i, TURN], P[i, TURN + 1], P[i, TURN + 2] = x, y, z
     for k in range(3):
         P[TURN + k, TURN + k] += noise.turn
@@ -81,38 +128,52 @@ def grow(P: Floats, S_R: Mat3, S_A: Floats, S_f: Vec3, noise: Noise) -> None:
 
 
 @compiled
-def correct(P: Floats, work: Floats, residual: float, variance: float) -> float:
-    """One measured number: K = P h/(hᵀ P h + R), x ← x + K (residual − hᵀx), P ← P − K hᵀP, in place (eq. 12).
+def correct(P: Floats, residual: float, variance: float) -> None:
+    """One measured number: K = P h/(hᵀ P h + R), x ← x + K (residual − hᵀ x), P ← P − K hᵀ P, in place (eq. 12).
 
-    *work* (3, 24) holds h, x and room. Returns the residual's square over its variance.
+    Rows H and X hold h and x. *residual* is measured − expected at x = 0.
     """
     for j in range(SIZE):
-        work[2, j] = 0.0
+        P[ROOM, j] = 0.0
     for i in range(SIZE):
-        weight = work[0, i]
+        weight = P[H, i]
         if weight != 0.0:
-            residual -= weight * work[1, i]
+            residual -= weight * P[X, i]
             for j in range(SIZE):
-                work[2, j] += weight * P[i, j]
+                P[ROOM, j] += weight * P[i, j]
     S = variance
     for i in range(SIZE):
-        S += work[0, i] * work[2, i]
+        S += P[H, i] * P[ROOM, i]
     per_S = 1.0 / S
     for i in range(SIZE):
-        gain = work[2, i] * per_S
-        work[1, i] += gain * residual
+        gain = P[ROOM, i] * per_S
+        P[X, i] += gain * residual
         for j in range(SIZE):
-            P[i, j] -= gain * work[2, j]
-    return residual * residual * per_S
+            P[i, j] -= gain * P[ROOM, j]
 
 
 @compiled
-def measure_one(P: Floats, work: Floats, at: int, residual: float, variance: float) -> float:
-    """:func:`correct` where the number measured is one of the 24."""
+def correct_one(P: Floats, at: int, residual: float, variance: float) -> None:
+    """:func:`correct` where the number measured is one of the 25."""
+    residual -= P[X, at]
     for j in range(SIZE):
-        work[0, j] = 0.0
-    work[0, at] = 1.0
-    return correct(P, work, residual, variance)
+        P[ROOM, j] = P[at, j]
+    per_S = 1.0 / (P[ROOM, at] + variance)
+    for i in range(SIZE):
+        gain = P[ROOM, i] * per_S
+        P[X, i] += gain * residual
+        for j in range(SIZE):
+            P[i, j] -= gain * P[ROOM, j]
+
+
+@compiled
+def forget(P: Floats, first: int, count: int, variance: float) -> None:
+    """Errors *first* … are as uncertain as *variance* says, and unrelated to all others."""
+    for i in range(first, first + count):
+        for j in range(SIZE):
+            P[i, j] = 0.0
+            P[j, i] = 0.0
+        P[i, i] = variance
 
 
 @compiled
@@ -122,3 +183,96 @@ def symmetrise(P: Floats) -> None:
         for j in range(i):
             mean = 0.5 * (P[i, j] + P[j, i])
             P[i, j], P[j, i] = mean, mean
+
+
+@compiled
+def vector(P: Floats, row: int, at: int) -> Vec3:
+    """Three numbers of a row."""
+    return Vec3(float(P[row, at]), float(P[row, at + 1]), float(P[row, at + 2]))
+
+
+@compiled
+def put(P: Floats, row: int, at: int, v: Vec3) -> None:
+    P[row, at], P[row, at + 1], P[row, at + 2] = v.x, v.y, v.z
+
+
+@compiled
+def three(P: Floats, row: int, at: int) -> Mat3:
+    """Nine numbers of a row, as a matrix by rows."""
+    return Mat3(vector(P, row, at), vector(P, row, at + 3), vector(P, row, at + 6))
+
+
+@compiled
+def put_three(P: Floats, row: int, at: int, m: Mat3) -> None:
+    put(P, row, at, m.x)
+    put(P, row, at + 3, m.y)
+    put(P, row, at + 6, m.z)
+
+
+@compiled
+def sums_of(P: Floats) -> Sums:
+    a, b, c = SUMS, SUMS + 1, SUMS + 2
+    return Sums(
+        float(P[a, 0]), float(P[a, 1]), three(P, a, 2), vector(P, a, 11), vector(P, a, 14), float(P[a, 17]),
+        vector(P, a, 18), float(P[a, 21]), float(P[a, 22]), float(P[a, 23]), float(P[a, 24]), vector(P, b, 0),
+        three(P, b, 3), vector(P, b, 12), three(P, c, 0),
+    )  # fmt: skip
+
+
+@compiled
+def put_sums(P: Floats, s: Sums) -> None:
+    a, b, c = SUMS, SUMS + 1, SUMS + 2
+    P[a, 0], P[a, 1], P[a, 17], P[a, 21], P[a, 22] = s.time, s.count, s.force_time, s.rate_square, s.excess_square
+    P[a, 23], P[a, 24] = s.mags, s.mag_time
+    put_three(P, a, 2, s.rotation)
+    put(P, a, 11, s.force)
+    put(P, a, 14, s.force_late)
+    put(P, a, 18, s.gyr)
+    put(P, b, 0, s.off)
+    put_three(P, b, 3, s.to_iron)
+    put(P, b, 12, s.to_delay)
+    put_three(P, c, 0, s.clipped)
+
+
+@compiled
+def sensor_of(P: Floats) -> Sensor:
+    r = SENSOR
+    return Sensor(
+        three(P, r, 0), vector(P, r, 9), vector(P, r, 12), vector(P, r, 15),
+        float(P[r, 18]), float(P[r, 19]), float(P[r, 20]), float(P[r, 21]),
+    )  # fmt: skip
+
+
+@compiled
+def put_sensor(P: Floats, s: Sensor) -> None:
+    r = SENSOR
+    put_three(P, r, 0, s.scale)
+    put(P, r, 9, s.velocity)
+    put(P, r, 12, s.field)
+    put(P, r, 15, s.iron)
+    P[r, 18], P[r, 19], P[r, 20], P[r, 21] = s.mag_delay, s.acc_delay, s.length, s.spread
+
+
+@compiled
+def add_turned(P: Floats, R: Mat3, turn: Vec3) -> None:
+    """S_A += R[:, i] g_j dt."""
+    for i in range(3):
+        row = R.x if i == 0 else (R.y if i == 1 else R.z)
+        P[TURNED + i, 0] += row.x * turn.x
+        P[TURNED + i, 1] += row.x * turn.y
+        P[TURNED + i, 2] += row.x * turn.z
+        P[TURNED + i, 3] += row.y * turn.x
+        P[TURNED + i, 4] += row.y * turn.y
+        P[TURNED + i, 5] += row.y * turn.z
+        P[TURNED + i, 6] += row.z * turn.x
+        P[TURNED + i, 7] += row.z * turn.y
+        P[TURNED + i, 8] += row.z * turn.z
+
+
+@compiled
+def begin_block(P: Floats) -> None:
+    """Nothing added up yet."""
+    for i in range(3):
+        for k in range(9):
+            P[TURNED + i, k] = 0.0
+    put_sums(P, NOTHING)
