@@ -19,9 +19,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import accuracy
-from peers import imufusion_ahrs, imufusion_filter, imufusion_units, installed, period
 from poise import METHODS, Attitude, Packet, Recording, Stream, TwoStage, estimate
 from poise.math import arrays
+from poise.peers import installed, period
+from poise.peers.adapters import imufusion_ahrs, imufusion_filter, imufusion_units
 from poise.simulation import Sensor, forearm, measure
 from stacked import Stacked
 from tables import Cell, heading, table
@@ -144,9 +145,8 @@ def torque(attitude: Attitude) -> tuple[float, float, float]:
 
 def form_errors() -> dict[str, float]:
     """The mean total RMSE of the filter's forms on the BROAD trials, degrees; empty where there are none."""
-    runs = {name: accuracy.run_method(method) for name, method in FORMS.items()}
-    scores = accuracy.measure(accuracy.trial_files(), runs)
-    return {name: accuracy.means(trials)["all"]["total"] for name, trials in scores.items() if trials}
+    scores = accuracy.measure(accuracy.trial_files(), FORMS)
+    return {name: float(np.mean([s.judged for s in trials.values()])) for name, trials in scores.items() if trials}
 
 
 def largest_difference_deg(made: Recording) -> float:

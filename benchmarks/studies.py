@@ -14,11 +14,11 @@ from typing import Any
 import numpy as np
 
 import poise
-from accuracy import trial_files
+from accuracy import has_heading, trial_files
 from poise.data.recording import Recording
 from poise.math import arrays
+from scores import CHOSEN, score
 
-CHOSEN = ("01", "05", "09", "15", "25", "29", "33")
 STRONG = ("07", "15", "21", "29", "31")
 
 
@@ -35,16 +35,14 @@ def block_means(recording: Recording, samples: int) -> Recording:
 
 
 def totals(method: Any, trials: dict[str, Recording]) -> dict[str, float]:
-    """RMSE of every trial, degrees: total, or inclination of a method without a heading of its own."""
-    kind = "total" if hasattr(method, "declination") else "inclination"
-    errors = {name: poise.evaluate(poise.estimate(method, r), r) for name, r in trials.items()}
-    return {name: float(getattr(error.rmse_deg(), kind)) for name, error in errors.items()}
+    """Total RMSE of every trial, degrees; that of the inclination for a method whose heading no sensor gives."""
+    return {name: score(poise.estimate(method, r), r, has_heading(method)).judged for name, r in trials.items()}
 
 
 def line(label: str, errors: dict[str, float]) -> str:
     """Means over all trials, the half that parameters were chosen on, and the other."""
-    chosen = [error for name, error in errors.items() if name[:2] in CHOSEN]
-    held_out = [error for name, error in errors.items() if name[:2] not in CHOSEN]
+    chosen = [error for name, error in errors.items() if int(name[:2]) in CHOSEN]
+    held_out = [error for name, error in errors.items() if int(name[:2]) not in CHOSEN]
     return f"{label:38s} {np.mean(list(errors.values())):6.2f} {np.mean(chosen):6.2f} {np.mean(held_out):6.2f}"
 
 

@@ -1,96 +1,32 @@
-"""The benchmarks: what peers' adapters give is in ENU, w x y z; the comparison with stored figures finds what is worse."""
+"""The benchmarks: the comparison with stored figures finds what is worse, and what is timed is the same work."""
 
 from __future__ import annotations
 
-import os
 import sys
-from dataclasses import replace
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pytest
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
-from helpers import angle_between, wxyz
-from poise import Attitude, Recording, TwoStage, estimate
-from poise.errors import RecordingError
-from poise.simulation import PERFECT, Sensor, at_rest, forearm, measure, turned_about_up
+from data_files import data_path
+from helpers import wxyz
+from poise import AdaptiveGain, Attitude, Recording, TwoStage, estimate
+from poise.math import arrays
+from poise.peers import PEERS, installed
+from poise.simulation import PERFECT, Sensor, at_rest, forearm, measure
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
 
 import accuracy
+import scores
 import speed
-from accuracy import Score
-from peers import PEERS, installed, period
+from scores import Score
 from stacked import Stacked
 from studies import block_means
 from tables import Cell, table
-
-# Poses of a body with x right, y forward, z up: turned about up first, then about its own axes.
-POSES: dict[str, tuple[str, float | list[float]]] = {
-    "level, facing north": ("Z", 0),
-    "level, facing east": ("Z", -90),
-    "nose up, facing north": ("ZX", [0, 30]),
-    "right side down, facing east": ("ZY", [-90, 40]),
-    "tilted both ways, facing south-west": ("ZXY", [135, -35, 60]),
-}
-
-
-def outcome(name: str, recording: Recording) -> NDArray[np.float64]:
-    """The error of a peer, degrees a row; skips where its package is absent, and fails in CI."""
-    package = PEERS[name].package
-    if not installed(package):
-        reason = f"{package} is not installed (the extra 'peers' brings it)"
-        if os.environ.get("CI"):
-            pytest.fail(reason)
-        pytest.skip(reason)
-    assert recording.truth is not None
-    quat = PEERS[name].run(recording)
-    assert quat.shape == (len(recording), 4)
-    return np.degrees(angle_between(quat, recording.truth.quat))
-
-
-@pytest.mark.parametrize("pose", POSES)
-@pytest.mark.parametrize("name", PEERS)
-def test_a_perfect_sensor_at_rest_comes_out_in_enu(name: str, pose: str) -> None:
-    sequence, degrees = POSES[pose]
-    quat = wxyz(Rotation.from_euler(sequence, degrees, degrees=True))
-    error = outcome(name, measure(at_rest(quat, duration=15.0), PERFECT))
-    assert error[-1] < 1.0
-
-
-@pytest.mark.parametrize("name", PEERS)
-def test_the_adapters_poses_are_what_their_names_say(name: str) -> None:
-    """Against figures written by hand, not by the simulation: nose up by 30°, facing east, gravity and field in the body."""
-    n, (s, c) = 1500, (0.5, np.sqrt(0.75))
-    acc, mag = np.tile([0.0, 9.81 * s, 9.81 * c], (n, 1)), np.tile([-20.0, -40.0 * s, -40.0 * c], (n, 1))
-    quat = np.tile(wxyz(Rotation.from_matrix([[0, c, -s], [-1, 0, 0], [0, s, c]])), (n, 1))
-    time = np.arange(n) / 100.0
-    made = Recording(time=time, gyr=np.zeros((n, 3)), acc=acc, mag=mag, truth=Attitude.of(time, quat))
-    assert outcome(name, made)[-1] < 1.0
-
-
-@pytest.mark.parametrize("name", PEERS)
-def test_a_perfect_sensor_in_motion_comes_out_in_enu(name: str) -> None:
-    motion = turned_about_up(forearm(40.0, 160.0, seed=1), 2.0)  # at no package's default rate
-    error = outcome(name, measure(motion, PERFECT))[800:]
-    assert np.sqrt(np.mean(error**2)) < 3.0
-    assert error.max() < 6.0
-
-
-@pytest.mark.parametrize("fault", ["a gap", "an absent sample"])
-def test_peers_are_not_given_what_they_cannot_know(fault: str) -> None:
-    made = measure(at_rest(duration=2.0), PERFECT)
-    if fault == "a gap":
-        time = made.time.copy()
-        time[100:] += 0.01
-        made = replace(made, time=time, truth=None)
-    else:
-        made.mag[7] = np.nan
-    with pytest.raises(RecordingError, match="peers need"):
-        period(made)
-
 
 # -- accuracy ---------------------------------------------------------------------------------------------------------
 
@@ -100,7 +36,7 @@ STORED = {"filter": {trial: Score(2.0, 1.8, 0.8, False, 0) for trial in ("01_a",
 def changed(**trials: Score | None) -> list[str]:
     """What the comparison says when some trials of STORED come out otherwise; None for not at all."""
     measured = STORED["filter"] | {f"{name[1:]}": s for name, s in trials.items()}
-    return accuracy.compare(STORED, {"filter": {trial: s for trial, s in measured.items() if s is not None}})
+    return scores.compare(STORED, {"filter": {trial: s for trial, s in measured.items() if s is not None}})
 
 
 def total(value: float) -> Score:
@@ -122,8 +58,8 @@ def test_what_is_missing_is_named() -> None:
     (sentence,) = changed(_03_b=None)
     assert "03_b" in sentence
     assert "not measured" in sentence
-    assert len(accuracy.compare(STORED, {})) == 4
-    assert accuracy.compare({}, STORED) == []  # new methods have nothing to be compared with
+    assert len(scores.compare(STORED, {})) == 4
+    assert scores.compare({}, STORED) == []  # new methods have nothing to be compared with
 
 
 def test_losing_the_attitude_is_worse_however_small_the_error() -> None:
@@ -133,22 +69,116 @@ def test_losing_the_attitude_is_worse_however_small_the_error() -> None:
     assert len(changed(_01_a=total(float("nan")))) == 1
 
 
+def test_a_little_on_every_trial_is_worse_in_the_mean() -> None:
+    slight = {f"_{trial}": total(2.016) for trial in STORED["filter"]}
+    sentences = changed(**slight)
+    assert sentences == [f"filter, mean of {half}: 2.000° → 2.016° (+0.8%)" for half in ("all", "chosen", "held-out")]
+
+
 def test_means_are_over_the_halves() -> None:
     trials = {"01_a": total(1.0), "03_b": total(4.0), "05_c": total(2.0)}
-    means = accuracy.means(trials)
+    means = scores.means(trials, scores.halves(trials))
     assert [means[half]["total"] for half in ("all", "chosen", "held-out")] == pytest.approx([7 / 3, 1.5, 4.0])
-    assert not accuracy.CHOSEN & accuracy.HELD_OUT
-    assert "held-out" not in accuracy.means({"01_a": total(1.0)})
+    assert not scores.CHOSEN & scores.HELD_OUT
+    assert "held-out" not in scores.halves(["01_a"])
+
+
+def test_groups_come_from_the_words_of_a_trials_name() -> None:
+    names = [
+        "01_undisturbed_slow_rotation_A",
+        "09_undisturbed_fast_rotation_with_breaks_B",
+        "21_undisturbed_fast_combined",
+        "27_disturbed_phone_vibration_B",
+        "29_disturbed_stationary_magnet_B",
+        "33_disturbed_attached_magnet_2cm",
+    ]
+    assert {group: [int(name[:2]) for name in members] for group, members in scores.groups(names).items()} == {
+        "slow": [1],
+        "fast": [9, 21],
+        "rotation": [1, 9],
+        "combined": [21],
+        "undisturbed": [1, 9, 21],
+        "vibration": [27],
+        "stationary magnet": [29],
+        "attached magnet": [33],
+    }
+
+
+# A method without a magnetometer's heading.
+LEANING = {trial: Score(None, None, 2.0, False, 0) for trial in ("01_slow_a", "03_fast_b")}
+
+
+def test_a_method_without_heading_is_judged_by_its_inclination() -> None:
+    worse = {"tilt": LEANING | {"03_fast_b": Score(None, None, 2.1, False, 0)}}
+    assert scores.compare({"tilt": LEANING}, worse)[0] == "tilt on 03_fast_b: 2.000° → 2.100° (+5.0%)"
+    assert scores.compare({"tilt": LEANING}, {"tilt": LEANING}) == []
+    other = {"tilt": {trial: Score(2.5, 1.5, 2.0, False, 0) for trial in LEANING}}
+    assert "heading" in scores.compare({"tilt": LEANING}, other)[0]
+    report = accuracy.report(STORED | {"tilt": LEANING}, markdown=False)
+    assert "-/-/2.000" in report
+    assert (
+        " ".join(next(line for line in report.splitlines() if "01_slow_a" in line).split()[:4]) == "01_slow_a - - 2.000"
+    )
+    assert scores.document({"tilt": LEANING})["results"]["tilt"]["groups"]["fast"]["total"] is None
+
+
+def test_a_heading_that_drifts_is_no_divergence_without_one() -> None:
+    made = measure(at_rest(duration=40.0), PERFECT)
+    attitude = Attitude.of(made.time, arrays.turn_about_up(made.time * 0.1))
+    whole, leaning = (scores.score(attitude, made, has_heading) for has_heading in (True, False))
+    assert whole.diverged
+    assert leaning.total is leaning.heading is None
+    assert leaning.inclination == pytest.approx(0.0, abs=1e-6)
+    assert not leaning.diverged
+    fallen = Attitude.of(made.time, np.tile([0.5, 0.8, 0.0, 0.0], (len(made), 1)))
+    assert scores.score(fallen, made, False).diverged
+
+
+def test_what_has_a_heading_is_known_from_its_fields() -> None:
+    class Tilt(NamedTuple):
+        gain: float = 1.0
+
+    assert all(accuracy.has_heading(c) for c in (TwoStage(), AdaptiveGain(), PEERS["vqf"]))
+    assert not accuracy.has_heading(Tilt())
+
+
+def test_two_at_a_time_find_the_same_to_the_bit() -> None:
+    names = ("01_undisturbed_slow_rotation_A", "33_disturbed_attached_magnet_2cm")
+    files = [data_path("broad", f"{name}.mat") for name in names]
+    contenders = {"adaptive-gain": AdaptiveGain()} | ({"vqf": PEERS["vqf"]} if installed("vqf") else {})
+    assert accuracy.measure(files, contenders, jobs=2) == accuracy.measure(files, contenders)
 
 
 def test_figures_are_stored_and_read_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(accuracy, "RESULTS", tmp_path)
-    accuracy.store("accuracy.json", accuracy.document(STORED))
-    assert accuracy.load(tmp_path / "accuracy.json") == STORED
+    monkeypatch.setattr(scores, "RESULTS", tmp_path)
+    accuracy.store("accuracy.json", scores.document(STORED))
+    assert scores.load(tmp_path / "accuracy.json") == STORED
     assert accuracy.check(STORED) == 0
     assert accuracy.check({"filter": {}}) == 1
     report = accuracy.report(STORED, markdown=True)
     assert "| mean, chosen " in report
+
+
+def test_a_peer_is_compared_with_the_same_release_only(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(scores, "RESULTS", tmp_path)
+    trials = STORED["filter"]
+    worse = {name: s._replace(total=3.0) for name, s in trials.items()}
+    facts = {name: {"version": "1.0"} for name in ("vqf", "imufusion")}
+    accuracy.store("accuracy.json", scores.document(STORED))
+    accuracy.store("peers.json", scores.document({"vqf": trials, "imufusion": trials}, facts))
+
+    monkeypatch.setattr(accuracy, "installed", lambda package: "1.0")
+    assert accuracy.check(STORED, {"vqf": trials, "ahrs-ekf": trials, "imufusion": trials}) == 0
+    assert "ahrs-ekf is not in the stored table" in capsys.readouterr().err
+    assert accuracy.check(STORED, {"vqf": worse, "imufusion": trials}) == 1
+    assert "WORSE vqf on 01_a: 2.000° → 3.000° (+50.0%)" in capsys.readouterr().err
+    assert accuracy.check(STORED, {"vqf": trials}) == 0  # imufusion was left out
+
+    monkeypatch.setattr(accuracy, "installed", lambda package: "1.1" if package == "vqf" else "1.0")
+    assert accuracy.check(STORED, {"vqf": worse, "imufusion": trials}) == 0
+    assert "vqf: stored with release 1.0, measured with 1.1: not compared" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(("ci", "code"), [("", 0), ("true", 1)])

