@@ -9,8 +9,8 @@ Departures from the print: there is none; what was tried and left out stands on 
 
 from __future__ import annotations
 
-from math import atan2, pi, radians, sqrt
-from typing import Annotated, NamedTuple, Self
+from math import atan2, cos, pi, radians, sqrt
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -52,8 +52,8 @@ from poise.estimators.self_calibrating.model import (
 )
 from poise.math.compiled import compiled
 from poise.math.matrices import Mat3, matrix, transpose
-from poise.math.quaternions import Quat, attitude_of, exp, normalize, renormalized
-from poise.math.vectors import UP, ZERO, Vec3, cross, dot, norm, present, within
+from poise.math.quaternions import Quat, attitude_of, conjugate, exp, normalize, renormalized, rotate, shortest_turn
+from poise.math.vectors import UP, ZERO, Vec3, cross, dot, norm, present, unit, within
 
 _FIRST_SPREAD = 1e-4  # (share of the field)², before any has been measured
 _FAR = radians(30.0)  # a heading further from the magnetometer's is beyond what a linear correction can do
@@ -84,7 +84,9 @@ class SelfCalibrating(NamedTuple):
     field_time: Annotated[float, "s", "how long an error of the field lasts", (1e-3, 1e6)] = 2.5
     spread_time: Annotated[float, "s", "over which the field's errors are averaged", (1e-3, 1e6)] = 10.0
     mag_rate_noise: Annotated[float, "s", "error of the field per rate of turn", (0.0, 10.0)] = 1e-3
-    field_walk: Annotated[float, "1/√s", "random walk of the field's north and up, in lengths of it", (0.0, 10.0)] = 3e-5
+    field_walk: Annotated[float, "1/√s", "random walk of the field's north and up, in lengths of it", (0.0, 10.0)] = (
+        3e-5
+    )
     iron_walk: Annotated[float, "1/√s", "random walk of the hard iron, in lengths of the field", (0.0, 10.0)] = 1e-3
     local_field: Annotated[float, "rad", "how far magnetic north here may be from that of the region", (0.0, pi)] = (
         radians(1.5)
@@ -104,11 +106,11 @@ class SelfCalibrating(NamedTuple):
     rest_acc: Annotated[float, "m/s²", "largest distance of a still specific force from its mean, per axis"] = 0.5
     rest_noise: Annotated[float, "rad/s", "how far a block's mean rate at rest is from the bias", (1e-9, 10.0)] = 3e-4
     rest_speed: Annotated[float, "m/s", "pseudo-velocity of a block at rest", (1e-9, 1e3)] = 0.01
-    sure_tilt: Annotated[float, "rad", "the magnetometer corrects the tilt too while that is less sure", (0.0, 10.0)] = (
-        radians(2.0)
-    )
-    gyr_range: Annotated[float, "rad/s", "end of the gyroscope's range: rates from 98 % of it on are clipped"] = radians(
-        2000.0
+    sure_tilt: Annotated[
+        float, "rad", "the magnetometer corrects the tilt too while that is less sure", (0.0, 10.0)
+    ] = radians(2.0)
+    gyr_range: Annotated[float, "rad/s", "end of the gyroscope's range: rates from 98 % of it on are clipped"] = (
+        radians(2000.0)
     )
     lead: Annotated[float, "s", "the attitude given out is that of now + lead", (-1.0, 1.0)] = 0.0
     gravity: Annotated[float, "m/s²", "length of gravity g", (0.1, 100.0)] = 9.80665
@@ -135,8 +137,7 @@ class SelfCalibrating(NamedTuple):
         return State(attitude, bias, ZERO, sample.gyr, sample.acc, 0.0, False, P)
 
     def restart(self, state: State, sample: Sample, bias: Vec3) -> State:
-        """Attitude from acc and mag anew; what was learned of the sensors stays."""
-        del bias  # the state has it
+        """Attitude from acc and mag anew; what was learned of the sensors, the bias too, stays."""
         P = state.P
         unsure_attitude(self, P)
         begin_block(P)
@@ -186,7 +187,7 @@ class SelfCalibrating(NamedTuple):
                 seen: Vec3 = R @ m
                 off = off + seen
         sums = Sums(
-            s.time + T, s.count + 1.0, s.rotation + T * R, force, force_late, force_time, s.gyr + sample.gyr,
+            s.time + T, s.samples + 1.0, s.rotation + T * R, force, force_late, force_time, s.gyr + sample.gyr,
             s.rate_square + dot(w, w), excess, mags, mag_time, off, to_iron, to_delay, clipped,
         )  # fmt: skip
         seconds = state.still + T if still else 0.0
@@ -243,7 +244,9 @@ def clipped_columns(R: Mat3, gyr: Vec3, limit: float) -> Mat3:
     y = 1.0 if abs(gyr.y) > limit else 0.0
     z = 1.0 if abs(gyr.z) > limit else 0.0
     return Mat3(
-        Vec3(x * R.x.x, y * R.x.y, z * R.x.z), Vec3(x * R.y.x, y * R.y.y, z * R.y.z), Vec3(x * R.z.x, y * R.z.y, z * R.z.z)
+        Vec3(x * R.x.x, y * R.x.y, z * R.x.z),
+        Vec3(x * R.y.x, y * R.y.y, z * R.y.z),
+        Vec3(x * R.z.x, y * R.z.y, z * R.z.z),
     )
 
 
@@ -251,7 +254,7 @@ def clipped_columns(R: Mat3, gyr: Vec3, limit: float) -> Mat3:
 def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> State:
     """The state after the end of a block: 4. covariance, 5. rest, 6. pseudo-velocity, 7. magnetometer, 8. inject."""
     P = state.P
-    T, rate_square = s.time, s.rate_square / s.count
+    T, rate_square = s.time, s.rate_square / s.samples
     rest = state.still >= method.rest_time
 
     # 4. Covariance
@@ -259,21 +262,23 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     noise = Noise(
         (method.gyr_noise**2 + method.scale_noise**2 * rate_square) * T,
         walk**2 * T,
-        (method.acc_noise**2 + method.motion_noise**2 * s.excess_square / s.count) * T,
+        (method.acc_noise**2 + method.motion_noise**2 * s.excess_square / s.samples) * T,
         method.field_walk**2 * T,
         method.iron_walk**2 * T,
     )
     grow(P, s, noise)
     add_clipping(P, s.clipped, 0.4 * method.gyr_range)
     if not state.begun:  # half a sampling interval: whether a sample is the mean before its stamp or around it
-        P[ACC_DELAY, ACC_DELAY] += (0.5 * T / s.count) ** 2
-    v = known.velocity + s.force - (method.gravity * s.force_time) * UP
+        P[ACC_DELAY, ACC_DELAY] += (0.5 * T / s.samples) ** 2
+    q = state.attitude if state.begun else levelled(method, state.attitude, s)
+    force = s.force if state.begun else rotate(q * conjugate(state.attitude), s.force)
+    v = known.velocity + force - (method.gravity * s.force_time) * UP
     for j in range(SIZE):
         P[X, j] = 0.0
 
     # 5. At rest the mean rate is the bias, 6. the pseudo-velocity is near 0
     if rest:
-        still = (1.0 / s.count) * s.gyr - state.bias
+        still = (1.0 / s.samples) * s.gyr - state.bias
         variance = method.rest_noise**2 * method.block / T
         correct_one(P, BIAS, still.x, variance)
         correct_one(P, BIAS + 1, still.y, variance)
@@ -285,9 +290,9 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         correct_one(P, VELOCITY + 2, -v.z, variance)
 
     # 7. Magnetometer
-    q, field, length, spread = state.attitude, known.field, known.length, known.spread
+    field, length, spread = known.field, known.length, known.spread
     if s.mags > 0.0:
-        e = (1.0 / s.mags) * s.off
+        e = (1.0 / s.mags) * s.off if state.begun else rotate(q * conjugate(state.attitude), (1.0 / s.mags) * s.off)
         if length == 0.0:
             length = norm(e)
             field = Vec3(0.0, sqrt(e.x * e.x + e.y * e.y) / length, e.z / length)
@@ -316,6 +321,17 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     q = normalize(exp(vector(P, X, TURN)) * q)
     bias = state.bias + vector(P, X, BIAS)
     return State(q, bias, state.rate, state.mean_gyr, state.mean_acc, state.still, True, P)
+
+
+@compiled
+def levelled(method: SelfCalibrating, q: Quat, s: Sums) -> Quat:
+    """The attitude that a block started at, levelled where gravity contradicts it: then it was given, and wrong."""
+    if s.force_time == 0.0:
+        return q
+    mean = (1.0 / s.force_time) * s.force
+    length = norm(mean)
+    off = mean.z < cos(3.0 * method.initial_tilt) * length
+    return shortest_turn(unit(mean), UP) * q if off and abs(length - method.gravity) < 0.1 * method.gravity else q
 
 
 @compiled

@@ -33,7 +33,7 @@ class Sums(NamedTuple):
     """What a block adds up, sample by sample; R is the attitude's matrix, dt the time a sample stands for."""
 
     time: float  # s
-    count: float  # samples
+    samples: float
     rotation: Mat3  # S_R = Σ R dt
     force: Vec3  # S_f = Σ R f dt, at the accelerometer's instant
     force_late: Vec3  # ∂S_f/∂(delay of the accelerometer) = −Σ R (ω × f) dt
@@ -222,7 +222,7 @@ def sums_of(P: Floats) -> Sums:
 @compiled
 def put_sums(P: Floats, s: Sums) -> None:
     a, b, c = SUMS, SUMS + 1, SUMS + 2
-    P[a, 0], P[a, 1], P[a, 17], P[a, 21], P[a, 22] = s.time, s.count, s.force_time, s.rate_square, s.excess_square
+    P[a, 0], P[a, 1], P[a, 17], P[a, 21], P[a, 22] = s.time, s.samples, s.force_time, s.rate_square, s.excess_square
     P[a, 23], P[a, 24] = s.mags, s.mag_time
     put_three(P, a, 2, s.rotation)
     put(P, a, 11, s.force)
