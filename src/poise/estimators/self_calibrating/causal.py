@@ -20,9 +20,11 @@ from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
     BIAS,
     COLUMNS,
+    ENTRY,
     FIELD,
     IRON,
     MAG_DELAY,
+    NOTHING,
     ROWS,
     SCALE,
     SENSOR,
@@ -39,6 +41,7 @@ from poise.estimators.self_calibrating.model import (
     begin_block,
     correct,
     correct_one,
+    enter_block,
     forget,
     grow,
     put,
@@ -112,6 +115,7 @@ class SelfCalibrating(NamedTuple):
     gyr_range: Annotated[float, "rad/s", "end of the gyroscope's range: rates from 98 % of it on are clipped"] = (
         radians(2000.0)
     )
+    log: Annotated[int, "blocks", "how many blocks are kept for a smoother", (0, 1e6)] = 0
     lead: Annotated[float, "s", "the attitude given out is that of now + lead", (-1.0, 1.0)] = 0.0
     gravity: Annotated[float, "m/s²", "length of gravity g", (0.1, 100.0)] = 9.80665
     declination: Annotated[float, "rad", "true heading = magnetic heading + D, east positive", (-pi, pi)] = 0.0
@@ -123,7 +127,7 @@ class SelfCalibrating(NamedTuple):
 
     def start(self, sample: Sample, bias: Vec3) -> State:
         """1. Attitude of the first acc and mag; everything else at what is expected of a sensor."""
-        P = np.zeros((ROWS, COLUMNS))
+        P = np.zeros((ROWS + ENTRY * self.log, COLUMNS))
         forget(P, BIAS, 3, self.initial_bias**2)
         forget(P, SCALE, 9, self.initial_scale**2)
         forget(P, FIELD, 2, 0.25)
@@ -140,6 +144,7 @@ class SelfCalibrating(NamedTuple):
         """Attitude from acc and mag anew; what was learned of the sensors, the bias too, stays."""
         P = state.P
         unsure_attitude(self, P)
+        enter_block(P, NOTHING, True)
         begin_block(P)
         put(P, SENSOR, 9, ZERO)
         attitude = attitude_of(sample.acc, sample.mag, 0.0)
@@ -212,6 +217,8 @@ class SelfCalibrating(NamedTuple):
             flags |= MAG_DISTURBED
         if not within(sample.gyr, 0.98 * self.gyr_range):
             flags |= GYR_CLIPPED
+        if self.log > 0:  # which entry of the log the row stands behind
+            flags |= (int(P[SENSOR, 22]) & 0xFFF) << 20
         return Output(sample.dt, q, state.rate, state.bias, sigma, bias_sigma, flags)
 
 
@@ -317,6 +324,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         spread,
     )
     put_sensor(P, after)
+    enter_block(P, s, not state.begun)
     begin_block(P)
     q = normalize(exp(vector(P, X, TURN)) * q)
     bias = state.bias + vector(P, X, BIAS)

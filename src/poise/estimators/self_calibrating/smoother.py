@@ -1,0 +1,122 @@
+"""The flagship with the future known: `smooth` runs the causal filter, then goes back over its blocks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from poise.data.attitude import Attitude
+from poise.data.recording import Recording
+from poise.errors import MethodError
+from poise.estimators.engine import Stream, feed
+from poise.estimators.self_calibrating.causal import SelfCalibrating
+from poise.estimators.self_calibrating.model import COLUMNS as WIDTH
+from poise.estimators.self_calibrating.model import ENTRIES, ENTRY, SENSOR, SIZE, Floats, back
+from poise.math import arrays
+
+_PART = 8192  # rows of a recording at a time
+_INDEX, _KNOWN = np.uint32(20), np.uint32(0xFFFFF)  # where in the flags the log's entry is counted, and what is left of them
+
+
+def smooth(
+    recording: Recording,
+    method: SelfCalibrating | None = None,
+    start: Attitude | ArrayLike | None = None,
+    *,
+    bias: ArrayLike = (0.0, 0.0, 0.0),
+    guard: bool = True,
+    window: float = 600.0,
+    overlap: float = 200.0,
+    progress: Callable[[int], None] | None = None,
+) -> Attitude:
+    """The attitude of every row of *recording*, from all of it: before the row and after (``SelfCalibrating`` only).
+
+    Memory does not grow with the recording: the way back starts *overlap* seconds behind each *window* of them. Other
+    arguments as for :func:`estimate`. Raises :class:`MethodError` for another method, and what :func:`estimate` raises.
+    """
+    method = SelfCalibrating() if method is None else method
+    if not isinstance(method, SelfCalibrating):
+        raise MethodError(f"only SelfCalibrating can be smoothed, found {type(method).__name__}")
+    if not (window > 0.0 and overlap >= 0.0):
+        raise MethodError(f"window and overlap: expected seconds, found {window!r} and {overlap!r}")
+    room = _PART + 2
+    stream = Stream(method._replace(log=room, iron_walk=0.0), start, bias=bias, guard=guard)
+    log: list[Floats] = []
+    past = feed(stream, recording, _PART, after=lambda: log.append(_taken(stream)), progress=progress)
+    entry = _unwrapped(past.flags >> _INDEX)
+    past.flags[:] &= _KNOWN
+    if len(past):
+        _correct(past, entry, np.concatenate(log) if log else np.empty((0, WIDTH)), method, window, overlap)
+    return replace(past, provenance=replace(past.provenance, method="SelfCalibrating, smoothed"))
+
+
+def _taken(stream: Stream) -> Floats:
+    """The finished entries of the log so far, (k · ENTRY, WIDTH); the log is empty then."""
+    state = stream.running_state
+    while not hasattr(state, "P"):
+        state = state.inner
+    P = state.P
+    done = int(P[SENSOR, 22] - P[SENSOR, 23])
+    taken = P[ENTRIES : ENTRIES + done * ENTRY].copy()
+    P[ENTRIES : ENTRIES + ENTRY] = P[ENTRIES + done * ENTRY : ENTRIES + (done + 1) * ENTRY]
+    P[SENSOR, 23] = P[SENSOR, 22]
+    return taken
+
+
+def _unwrapped(count: np.ndarray) -> np.ndarray:
+    """Entries finished up to each row, from their number modulo 4096; a row ends one at most."""
+    steps = np.diff(count.astype(np.int64), prepend=0) % 4096
+    return np.asarray(np.cumsum(steps))
+
+
+def _correct(past: Attitude, entry: np.ndarray, log: Floats, method: SelfCalibrating, window: float, overlap: float) -> None:
+    """Put into *past* what the future says of it."""
+    n = len(log) // ENTRY
+    ends = np.searchsorted(entry, np.arange(1, n + 1))  # the row at which each entry was finished
+    time = past.time[np.minimum(ends, len(entry) - 1)]
+    corrections = np.zeros((n, 19))
+    first = 0
+    while first < n:
+        last = int(np.searchsorted(time, time[first] + window)) if window < time[-1] - time[first] else n
+        last = max(last, first + 1)
+        ahead = max(int(np.searchsorted(time, time[last - 1] + overlap)), last) if last < n else n
+        future = np.zeros((SIZE + 2, SIZE))
+        part = np.zeros((ahead - first, 19))
+        back(log[first * ENTRY : ahead * ENTRY], future, part)
+        corrections[first:last] = part[: last - first]
+        first = last
+    _apply(past, entry, ends, time, corrections, method)
+
+
+def _apply(
+    past: Attitude, entry: np.ndarray, ends: np.ndarray, time: Floats, corrections: Floats, method: SelfCalibrating
+) -> None:
+    """Corrections of the blocks' ends, in between in proportion to time, onto every row."""
+    n = len(corrections)
+    if n == 0:
+        return
+    before = np.clip(entry - 1, 0, n - 1)  # the entry that the row stands behind
+    after = np.clip(entry, 0, n - 1)
+    at_start, at_end = corrections[before, :6], corrections[after, :6] + corrections[after, 6:12]
+    span = time[after] - time[before]
+    share = np.where(span > 0.0, (past.time - time[before]) / np.where(span > 0.0, span, 1.0), 0.0)
+    share = np.clip(np.nan_to_num(share), 0.0, 1.0)[:, None]
+    whole = (corrections[after, 18] == 0.0)[:, None] & (entry >= 1)[:, None] & (entry < n)[:, None]
+    first = (entry == 0)[:, None]
+    change = np.where(whole, (1.0 - share) * at_start + share * at_end, np.where(first, at_end, at_start))
+    turn, bias = change[:, :3], change[:, 3:6]
+    angle = np.linalg.norm(turn, axis=1, keepdims=True)
+    half = np.concatenate([np.cos(0.5 * angle), 0.5 * np.sinc(0.5 * angle / np.pi) * turn], axis=1)
+    if method.declination:  # the filter's north is magnetic, the rows' true
+        north = arrays.turn_about_up(np.array(-method.declination))
+        half = arrays.multiply(arrays.multiply(north, half), arrays.conjugate(north))
+    past.quat[:] = arrays.continuous(arrays.multiply(half, past.quat))
+    past.bias[:] += bias
+    past.rate[:] -= bias
+    variance = np.maximum((1.0 - share) * corrections[before, 12:18] + share * corrections[after, 12:18], 0.0)
+    variance[:, 2] += np.where(np.isfinite(past.sigma[:, 2]), method.local_field**2, 0.0)
+    past.sigma[:] = np.minimum(np.sqrt(variance[:, :3]), np.pi)
+    past.bias_sigma[:] = np.sqrt(variance[:, 3:])
