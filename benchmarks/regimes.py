@@ -17,6 +17,7 @@ from accuracy import trial_files
 from poise.data.recording import Recording
 from poise.math import arrays
 from poise.simulation import PERFECT, at_rest, forearm, measure
+from studies import block_means
 from tables import Cell, table
 
 Trials = dict[str, Recording]
@@ -54,6 +55,31 @@ def tilt(trials: Trials) -> Iterator[Table]:
             rows.append([name, *(e.rmse_deg().inclination for e in errors)])
     rows.append(["mean", *(float(np.mean([row[i] for row in rows])) for i in range(1, len(variants) + 1))])  # type: ignore[arg-type]
     yield "tilt, slow trials: inclination RMSE, degrees", ["", *variants], rows
+
+    rows = []
+    for samples in (1, 3, 6):
+        thinned = [block_means(recording, samples) for name, recording in trials.items() if name[:2] in SLOW]
+        errors = [poise.evaluate(poise.estimate(poise.Tilt(), r), r).rmse_deg().inclination for r in thinned]
+        rows.append([f"{285.7 / samples:.0f} Hz", *errors, float(np.mean(errors))])
+    yield "tilt, slow trials by sampling rate: inclination RMSE, degrees", ["", *SLOW, "mean"], rows
+
+    # What a user without a magnetometer may take instead
+    choices = {
+        "tilt": poise.Tilt(),
+        "fixed ratio": poise.Tilt(gain="fixed"),
+        "and RestBias": poise.RestBias(poise.Tilt(gain="fixed")),
+        "gated": poise.Gated(),
+        "two-stage": poise.TwoStage(),
+        "adaptive-gain": poise.AdaptiveGain(),
+        "armband": poise.Armband(),
+    }
+    rows = []
+    for name, recording in trials.items():
+        six = replace(recording, mag=None)
+        errors = [poise.evaluate(poise.estimate(m, six), six).rmse_deg().inclination for m in choices.values()]
+        rows.append([name, *errors])
+    rows.append(["mean", *(float(np.mean([row[i] for row in rows])) for i in range(1, len(choices) + 1))])  # type: ignore[arg-type]
+    yield "without magnetometer, every method: inclination RMSE, degrees", ["", *choices], rows
 
     injected = np.radians([0.5, -0.4, 0.3])
     rows = []

@@ -1,4 +1,4 @@
-"""What several test files need: NamedTuples as arrays, the plain Python behind a kernel, comparison of rotations."""
+"""What several test files need: NamedTuples as arrays, kernels and the Python behind them, comparison of rotations."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from hypothesis import given, settings
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
@@ -53,3 +54,18 @@ def assert_same_attitude(p: ArrayLike, q: ArrayLike, atol: float = 1e-12) -> Non
     p, q = np.atleast_2d(np.asarray(p, float)), np.atleast_2d(np.asarray(q, float))
     sign = np.where(np.sum(p * q, axis=1, keepdims=True) < 0, -1.0, 1.0)
     np.testing.assert_allclose(sign * p, q, rtol=0, atol=atol)
+
+
+def for_all(*strategies: Any, **named: Any) -> Callable[..., Any]:
+    """Hypothesis without a deadline: the first call may compile."""
+    return lambda test: settings(max_examples=60, deadline=None)(given(*strategies, **named)(test))
+
+
+def close(found: Any, expected: Any, atol: float = 1e-12) -> None:
+    np.testing.assert_allclose(array(found), array(expected), rtol=0, atol=atol)
+
+
+def assert_compiled_as_python(area: Callable[..., Any], *args: Any) -> None:
+    """A kernel that uses a whole area gives the numbers that its Python source gives."""
+    by_python = plain(area)(*args)
+    np.testing.assert_allclose(flat(area(*args)), flat(by_python), rtol=1e-13, atol=1e-15)

@@ -1,18 +1,31 @@
-"""Two methods a second time: plain numpy, written from their specification and not from the package.
+"""The methods a second time: plain numpy, written from their specification and not from the package.
 
 Everything is spelled out the textbook way (4×4 matrices, ``np.linalg.inv``, scipy for Euler angles) and slow. Where the
 specification leaves a choice open, a comment that begins with "Open:" says which one is taken here (the package's, read
-after this file was first finished, unless the comment says otherwise).
+after this file was first finished, unless the comment says otherwise). Here are what all of them use, two_stage and
+adaptive_gain; the others are in oracles_euler.py and oracles_gated.py.
 """
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
 Floats = NDArray[np.float64]
+
+
+class Answer(NamedTuple):
+    """What a method says, a row for every sample; None where it says nothing or it is not worked out here."""
+
+    quat: Floats
+    sigma: Floats | None = None
+    bias: Floats | None = None
+    bias_sigma: Floats | None = None
+    rate: Floats | None = None
+
 
 UP = np.array([0.0, 0.0, 1.0])
 NORTH = np.array([0.0, 1.0, 0.0])
@@ -51,7 +64,7 @@ def angles_of(q: Floats) -> Floats:
     return Rotation.from_quat(q[[1, 2, 3, 0]]).as_euler("ZXY")
 
 
-def tilt(f: Floats) -> tuple[float, float]:
+def tilt_of(f: Floats) -> tuple[float, float]:
     """(pitch, roll), rad, of a resting accelerometer."""
     return float(np.arcsin(f[1] / np.linalg.norm(f))), float(np.arctan2(-f[0], f[2]))
 
@@ -69,7 +82,7 @@ def known(v: Floats) -> bool:
 
 def start_attitude(f: Floats, m: Floats, declination: float) -> Floats:
     """The attitude by the first sample; heading 0 without a magnetometer."""
-    pitch, roll = tilt(f)
+    pitch, roll = tilt_of(f)
     return from_angles(pitch, roll, true_heading(pitch, roll, m, declination) if known(m) else 0.0)
 
 
@@ -89,6 +102,15 @@ def omega(w: Floats) -> Floats:
     """4×4: q ⊗ (0, w) = omega(w) @ q."""
     x, y, z = w
     return np.array([[0, -x, -y, -z], [x, 0, z, -y], [y, -z, 0, x], [z, y, -x, 0]])
+
+
+def exponential(a: Floats) -> Floats:
+    """The power series of exp, for small a; scipy's expm takes seven times as long where cores are busy (threads)."""
+    term = total = np.eye(len(a))
+    for k in range(1, 25):
+        term = term @ a / k
+        total = total + term
+    return total
 
 
 def xi(q: Floats) -> Floats:
@@ -119,6 +141,11 @@ def about_up(x: Floats) -> Floats:
     return earth_turns(x)[:, 2] / np.linalg.norm(x)
 
 
+def about_earth(x: Floats, p: Floats) -> Floats:
+    """Standard deviations about the Earth's axes, at most half a turn, of a quaternion with covariance p."""
+    return np.minimum(2.0 * np.sqrt(np.maximum(np.diag(earth_turns(x).T @ p @ earth_turns(x)), 0.0)), np.pi)
+
+
 def levelled(x: Floats, f: Floats, how: str) -> Floats:
     """The accelerometer's tilt with the heading of x.
 
@@ -127,7 +154,7 @@ def levelled(x: Floats, f: Floats, how: str) -> Floats:
     """
     x = x / np.linalg.norm(x)
     if how == "angles":
-        return from_angles(*tilt(f), angles_of(x)[0])
+        return from_angles(*tilt_of(f), angles_of(x)[0])
     up = matrix(x) @ f / np.linalg.norm(f)
     axis, angle = cross(up, UP), np.arccos(np.clip(up @ UP, -1.0, 1.0))
     length = np.linalg.norm(axis)
@@ -150,20 +177,20 @@ def two_stage(
     declination: float,
     gravity: float,
     level: str = "turn",
-) -> Floats:
-    """Quaternions (n, 4); *level* is how the heading of x⁻ is kept, see :func:`levelled`."""
+) -> Answer:
+    """*level* is how the heading of x⁻ is kept, see :func:`levelled`."""
     eye = np.eye(4)
     x = start_attitude(acc[0], mag[0], declination)
     # Open: what P0 is. The accelerometer's variance about east and north and the magnetometer's about up, as densities
     # averaged over 0.01 s; ½ turns rotation vectors into quaternions.
     sigma0 = np.array([acc_noise / gravity, acc_noise / gravity, mag_noise]) / np.sqrt(0.01)
     p = 0.25 * earth_turns(x) @ np.diag(sigma0**2) @ earth_turns(x).T
-    quats = [x]
+    quats, sigmas = [x], [about_earth(x, p)]
     for i in range(1, len(time)):
         dt = time[i] - time[i - 1]
         f, m = acc[i], mag[i]
         # 2. predict. Open: Ξ is taken at x(k−1), not at x⁻.
-        a = expm(0.5 * dt * omega(gyr[i])) if transition == "exact" else eye + 0.5 * dt * omega(gyr[i])
+        a = exponential(0.5 * dt * omega(gyr[i])) if transition == "exact" else eye + 0.5 * dt * omega(gyr[i])
         q_noise = (0.5 * dt) ** 2 * xi(x) @ xi(x).T * gyr_noise**2 / dt
         x = a @ x
         p = a @ p @ a.T + q_noise
@@ -174,7 +201,7 @@ def two_stage(
         q_level = levelled(x, f, level)
         q_am = q_level
         if known(m):
-            q_am = from_angles(*tilt(f), true_heading(*tilt(f), m, declination))
+            q_am = from_angles(*tilt_of(f), true_heading(*tilt_of(f), m, declination))
         q_am = q_am if q_am @ x >= 0 else -q_am
         # 4. stage 1, accelerometer. Open: t of `decouple` is taken at the estimate that the stage starts from; without
         # `decouple` the Joseph form is the short one, since the gain is then the optimal one.
@@ -199,7 +226,8 @@ def two_stage(
             p = (eye - k2 @ h2) @ p @ (eye - k2 @ h2).T + k2 @ r2 @ k2.T
         x = x / np.linalg.norm(x)
         quats.append(x)
-    return continuous(quats)
+        sigmas.append(about_earth(x, p))
+    return Answer(continuous(quats), np.array(sigmas))
 
 
 # -- 3. adaptive_gain --------------------------------------------------------------------------------------------------
@@ -231,8 +259,7 @@ def adaptive_gain(
     k_forced: float,
     gravity: float,
     declination: float,
-) -> Floats:
-    """Quaternions (n, 4)."""
+) -> Answer:
     q = start_attitude(acc[0], mag[0], declination)
     # Open: what "still" is. The rate is small; specific force and field direction are close, axis by axis, to means with
     # a time constant of 0.5 s; all of that for rest_time. A sensor without a sample does not object.
@@ -315,4 +342,4 @@ def adaptive_gain(
         q = product(q, turn(w_c * dt))
         q = q / np.linalg.norm(q)
         quats.append(q)
-    return continuous(quats)
+    return Answer(continuous(quats))

@@ -43,6 +43,19 @@ def test_a_choice_in_a_kernel_equals_its_own_text_only(mode: Any) -> None:
     assert plain(which)(prepared(Switch(mode))) == expected
 
 
+@compiled
+def other_than(switch: Switch) -> tuple[bool, bool, bool, bool, bool]:
+    m = switch.mode
+    return m != "fast", m != "slow", m != "slower", m != "", m != "Fast"
+
+
+@pytest.mark.parametrize("mode", ["fast", "slow", "slower", ""])
+def test_a_choice_in_a_kernel_differs_from_every_other_text(mode: Any) -> None:
+    expected = tuple(mode != text for text in ("fast", "slow", "slower", "", "Fast"))
+    assert other_than(prepared(Switch(mode))) == expected
+    assert plain(other_than)(prepared(Switch(mode))) == expected
+
+
 def test_all_texts_of_a_choice_share_one_compilation() -> None:
     for mode in ("fast", "slow"):
         which(prepared(Switch(mode)))  # type: ignore[arg-type]

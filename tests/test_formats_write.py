@@ -137,7 +137,7 @@ def test_foreign_references(tmp_path):
     with pytest.raises(FormatError, match="no attitude: expected columns time, qw, qx, qy, qz, found time, a, b"):
         read_attitude(path)
     np.savez(tmp_path / "a.npz", a=1)
-    with pytest.raises(FormatError, match="Parquet, CSV and TUM text, this is a npz file"):
+    with pytest.raises(FormatError, match="Parquet, CSV, TUM text and ROS bags, this is a npz file"):
         read_attitude(tmp_path / "a.npz")
 
 

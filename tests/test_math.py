@@ -8,11 +8,21 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import assume, example, given, settings
+from hypothesis import assume, example
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from helpers import angle_between, array, assert_same_attitude, flat, plain, rotation, wxyz
+from helpers import (
+    angle_between,
+    array,
+    assert_compiled_as_python,
+    assert_same_attitude,
+    close,
+    for_all,
+    plain,
+    rotation,
+    wxyz,
+)
 from poise.estimators.two_stage import heading_turn, levelled, north_matrix, rate_matrix, turns_about_earth, up_matrix
 from poise.math.compiled import compiled
 from poise.math.matrices import I3, I4, Mat3, Mat4, Mat34, Mat43, diagonal, inverse, matrix, outer, transpose
@@ -37,12 +47,6 @@ from poise.math.quaternions import (
 )
 from poise.math.vectors import ABSENT, NORTH, UP, ZERO, Vec3, cross, dot, norm, present, unit, within
 
-
-def for_all(*strategies: Any, **named: Any) -> Callable[..., Any]:
-    """Hypothesis without a deadline: the first call may compile."""
-    return lambda test: settings(max_examples=60, deadline=None)(given(*strategies, **named)(test))
-
-
 numbers = st.floats(-10.0, 10.0).filter(lambda x: x == 0.0 or abs(x) > 1e-6)
 vectors = st.builds(Vec3, numbers, numbers, numbers)
 long_vectors = vectors.filter(lambda v: np.linalg.norm(v) > 1e-2)
@@ -55,16 +59,6 @@ declinations = st.one_of(st.just(0.0), st.floats(-3.0, 3.0))
 p_, q_ = Quat(0.5, -0.1, 0.7, 0.2), Quat(-0.3, 0.4, 0.1, 0.6)
 u_, v_ = Vec3(0.3, -2.0, 1.1), Vec3(-0.7, 0.4, 1.9)
 EAST = Vec3(1.0, 0.0, 0.0)
-
-
-def close(found: Any, expected: Any, atol: float = 1e-12) -> None:
-    np.testing.assert_allclose(array(found), array(expected), rtol=0, atol=atol)
-
-
-def assert_compiled_as_python(area: Callable[..., Any], *args: Any) -> None:
-    """A kernel that uses a whole area gives the numbers that its Python source gives."""
-    by_python = plain(area)(*args)
-    np.testing.assert_allclose(flat(area(*args)), flat(by_python), rtol=1e-13, atol=1e-15)
 
 
 # -- vectors ----------------------------------------------------------------------------------------------------------

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
     from poise.data.recording import Recording
 
 _WORTH_SAYING = 0.9  # a smaller share of valid rows is pointed out
-_WRITABLE = (".parquet", ".csv", ".tum", ".txt")
+_WRITABLE = (".parquet", ".csv", ".tum", ".txt", ".bag", ".mcap")
+_ROS = ("bag", "mcap", "ros2")
+_Format = Literal["parquet", "csv", "tum", "bag", "mcap", "ros2"]
 
 
 def estimate(
@@ -25,6 +27,7 @@ def estimate(
     /,
     *,
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    format: _Format | None = None,
     plot: Path | None = None,
     frame: Literal["enu", "ned", "nwu"] = "enu",
     json: Annotated[bool, Parameter(negative="")] = False,
@@ -44,9 +47,12 @@ def estimate(
     Parameters
     ----------
     files
-        Recordings: CSV, TSV, Parquet, npz or MATLAB files, recognised by their content.
+        Recordings: CSV, TSV, Parquet, npz or MATLAB files or ROS bags, recognised by their content.
     output
-        A file (.parquet, .csv, or .tum for a trajectory in TUM text) for one FILE, or a folder for any number.
+        A file (.parquet, .csv, .tum for a trajectory in TUM text, .bag or .mcap for sensor_msgs/Imu messages) for one
+        FILE, or a folder for any number.
+    format
+        What to write where the output is a folder; `ros2` makes `NAME.attitude` there, the folder of a ROS 2 bag.
     plot
         A picture of the attitude (.png, .svg, .pdf); a folder for several FILEs.
     frame
@@ -58,7 +64,9 @@ def estimate(
     try:
         running.build()
         reading.as_arguments()
-        targets = _targets(files, output, ".attitude.parquet", _WRITABLE, "--output")
+        targets = _targets(files, output, _ending(output, format), _WRITABLE, "--output")
+        if frame != "enu" and any(_is_ros(target, format) for target in targets.values()):
+            usage(f"--frame {frame}: an orientation in a ROS bag is body to east-north-up (REP 103); leave --frame out")
         pictures = _targets(files, plot, ".attitude.png", (".png", ".svg", ".pdf"), "--plot") if plot else {}
 
         def work(file: Path, tell: Callable[[str, float], None]) -> dict[str, Any]:
@@ -67,7 +75,7 @@ def estimate(
             tell("estimating (a first run compiles the method)", 0.2)
             n = max(len(recording), 1)
             attitude = running.estimate(recording, progress=lambda done: tell("estimating", 0.2 + 0.6 * done / n))
-            return _finished(file, recording, attitude.to(frame), targets[file], pictures.get(file), tell)
+            return _finished(file, recording, attitude.to(frame), targets[file], format, pictures.get(file), tell)
 
         running.warm()
         results, refused = show.each(files, work)
@@ -86,6 +94,7 @@ def _finished(
     recording: Recording,
     attitude: Attitude,
     target: Path,
+    format: _Format | None,
     picture: Path | None,
     tell: Callable[[str, float], None],
 ) -> dict[str, Any]:
@@ -99,7 +108,7 @@ def _finished(
             place.parent.mkdir(parents=True, exist_ok=True)
         except (FileExistsError, NotADirectoryError):
             raise FormatError(f"{place}: cannot be written: {place.parent} is a file, not a folder") from None
-    write(attitude, target)
+    write(attitude, target, format, recording=recording)
     errors = evaluate(attitude, recording) if recording.truth is not None else None
     if picture:
         from poise.plots import attitude_figure, save_figure
@@ -149,6 +158,18 @@ def _report(results: list[dict[str, Any]], method: str) -> None:
             show.note(f"{Path(result['file']).name}: {text}")
         if result["plot"]:
             show.note(f"{Path(result['file']).name}: picture in {result['plot']}")
+
+
+def _ending(output: Path | None, format: _Format | None) -> str:
+    """What follows a recording's name in a folder; a *format* must not contradict the name of a single file."""
+    suffix = "" if output is None or output.is_dir() else output.suffix.lower()
+    if format and suffix in _WRITABLE and suffix not in (f".{format}", ".txt" if format == "tum" else ""):
+        usage(f"--format {format} and --output {output} contradict each other")
+    return ".attitude" if format == "ros2" else f".attitude.{format or 'parquet'}"
+
+
+def _is_ros(target: Path, format: _Format | None) -> bool:
+    return format in _ROS or target.suffix.lower() in (".bag", ".mcap")
 
 
 def _targets(

@@ -42,8 +42,8 @@ def evaluate(
     files
         Recordings, or attitudes written by poise.
     reference
-        What to compare with, on the recording's clock: an attitude (Parquet or CSV by poise, TUM text) or a recording
-        with a reference in it.
+        What to compare with, on the recording's clock: an attitude (Parquet or CSV by poise, TUM text, the
+        orientation in a ROS bag) or a recording with a reference in it.
     plot
         A picture of one FILE's attitude, reference and error (.png, .svg, .pdf).
     json

@@ -52,6 +52,9 @@ class Reading:
     rate: float | None = None
     """Samples per second, for a file without time stamps."""
 
+    topic: str | None = None
+    """The Imu topic of a ROS bag that has several, or both topics: `/imu/data_raw,/imu/mag` (`-`: no magnetometer)."""
+
     remap: str | None = None
     """Rename the sensor's axes: `--remap "y -x z"` makes x its y, y its -x, z its z."""
 
@@ -71,6 +74,7 @@ class Reading:
             "delimiter": delimiter,
             "decimal": self.decimal,
             "rate": self.rate,
+            "topic": self.topic,
         }
 
     def _check(self) -> None:

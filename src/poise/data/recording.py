@@ -103,7 +103,7 @@ class Recording:
         merged: dict[str, Any] = {}
         for name, sensor in (("acc", acc), ("mag", mag)):
             if sensor is not None:
-                merged[name], merged[f"{name}_age"] = _place(name, time, *sensor)
+                merged[name], merged[f"{name}_age"] = place(name, time, *sensor)
         return cls(time=time, gyr=gyr[1], **merged, **facts)  # type: ignore[arg-type]
 
     def __len__(self) -> int:
@@ -229,7 +229,11 @@ def _check_unit_of_time(time: Floats) -> None:
     )
 
 
-def _place(name: str, rows: Floats, time: ArrayLike, values: ArrayLike) -> tuple[Floats, Floats]:
+def place(name: str, rows: Floats, time: ArrayLike, values: ArrayLike) -> tuple[Floats, Floats]:
+    """A sensor's *values* (m, 3) at *time* (m,) on the rising *rows* (n,) s, each sample once, and their ages (n,) s.
+
+    :meth:`Recording.from_sensors` says how. Raises :class:`RecordingError` where nearly none falls to a row.
+    """
     stamps = _numbers(f"{name} time", time)
     if stamps.ndim != 1:
         raise RecordingError(f"{name} time: expected (n,) seconds, found shape {stamps.shape}")

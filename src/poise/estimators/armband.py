@@ -45,6 +45,7 @@ class State(NamedTuple):
     starting: bool  # still in the first rest
     age: float  # s since the start
     rested: float  # s of rest that the start is a mean of
+    counts: Vec3  # samples of gyr, acc, mag in it
     mean_acc: Vec3
     mean_gyr: Vec3
     mean_mag: Vec3  # of the field's direction
@@ -101,7 +102,7 @@ class Armband(NamedTuple):
         wide = self.wide**2
         return State(
             from_angles(angles), bias, angles, sample.gyr - bias, diagonal(wide, wide, wide), ZERO,
-            True, 0.0, 0.0, sample.acc, sample.gyr, mag,
+            True, 0.0, 0.0, Vec3(1.0, 1.0, 1.0 if present(sample.mag) else 0.0), sample.acc, sample.gyr, mag,
         )  # fmt: skip
 
     def step(self, state: State, sample: Sample) -> State:
@@ -135,7 +136,7 @@ class Armband(NamedTuple):
             X = Angles(wrapped(X.pitch + change.x), wrapped(X.roll + change.y), wrapped(X.heading + change.z))
             if self.kinematics != "small-angle" and folds(X.pitch):
                 X, P = folded(X), pitch_turned(P)
-        return State(from_angles(X), state.bias, X, w, P, spread, False, age, state.rested, ZERO, ZERO, ZERO)
+        return State(from_angles(X), state.bias, X, w, P, spread, False, age, state.rested, ZERO, ZERO, ZERO, ZERO)
 
     def output(self, state: State, sample: Sample) -> Output:
         """6. The angles' attitude and the rate state; sigma about the Earth's axes from P."""
@@ -229,20 +230,35 @@ def at_rest(method: Armband, state: State, sample: Sample) -> bool:
 def resting(method: Armband, state: State, sample: Sample) -> State:
     """The state after one more sample of the first rest: X0 from the means, P0 of a rest once it is one."""
     rested = state.rested + sample.dt
-    share = sample.dt / (rested + sample.dt)  # the first sample counts for as much as this one
-    gyr = state.mean_gyr + share * (sample.gyr - state.mean_gyr)
+    n_gyr, n_acc, n_mag = state.counts
+    n_gyr += 1.0
+    gyr = state.mean_gyr + (sample.gyr - state.mean_gyr) / n_gyr
     acc, mag = state.mean_acc, state.mean_mag
     if present(sample.acc):
-        acc = acc + share * (sample.acc - acc)
+        n_acc += 1.0
+        acc = acc + (sample.acc - acc) / n_acc
     if present(sample.mag):
-        mag = mag + share * (unit(sample.mag) - mag) if present(mag) else unit(sample.mag)
+        n_mag += 1.0
+        mag = mag + (unit(sample.mag) - mag) / n_mag if present(mag) else unit(sample.mag)
     angles = measured(method, acc, mag)
     P = state.covariance
     if rested >= _SHORTEST:
         tilt, heading = method.initial_tilt**2, method.initial_heading**2
         P = diagonal(tilt, tilt, heading)
     return State(
-        from_angles(angles), state.bias, angles, gyr - state.bias, P, ZERO, True, rested, rested, acc, gyr, mag
+        from_angles(angles),
+        state.bias,
+        angles,
+        gyr - state.bias,
+        P,
+        ZERO,
+        True,
+        rested,
+        rested,
+        Vec3(n_gyr, n_acc, n_mag),
+        acc,
+        gyr,
+        mag,
     )
 
 

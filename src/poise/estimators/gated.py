@@ -102,7 +102,7 @@ class Gated(NamedTuple):
         rotV = exp(T * w)
         R = renormalized(state.attitude * rotV)
         if not present(f):
-            return State(R, state.bias, g, steady)
+            return State(R, state.bias, g, steady + T)
 
         # 3. Low-pass gravity, on every sample
         keep = self.alpha

@@ -44,6 +44,11 @@ class Axis(NamedTuple):
     bb: float  # variance of the bias
 
 
+class Axes(NamedTuple):
+    pitch: Axis
+    roll: Axis
+
+
 class State(NamedTuple):
     attitude: Quat  # of the two angles, with heading 0
     bias: Vec3  # body frame: what was given at the start, and the two biases
@@ -126,6 +131,8 @@ class Tilt(NamedTuple):
         pitch = predicted(pitch, u_pitch, T, q_angle, q_bias)
         roll = predicted(roll, u_roll, T, q_angle, q_bias)
 
+        pitch, roll = within_range(self, pitch, roll)
+
         if present(f):
             # 3. Z and its R
             Z = Angles(pitch_of(f), roll_of(f), 0.0)
@@ -152,13 +159,8 @@ class Tilt(NamedTuple):
             pitch = corrected(pitch, wrapped(Z.pitch - pitch.angle), r_pitch, ratio)
             roll = corrected(roll, wrapped(Z.roll - roll.angle), r_roll, ratio)
 
-        # 5. Fold past ±90° of pitch
-        if self.kinematics == "euler" and folds(pitch.angle):
-            # θ → 180° − θ changes the sign of its rate, and so of its bias: P keeps its own
-            pitch = Axis(wrapped(pi - pitch.angle), -pitch.bias, pitch.aa, pitch.ab, pitch.bb)
-            roll = Axis(roll.angle + pi, roll.bias, roll.aa, roll.ab, roll.bb)
-        pitch = Axis(wrapped(pitch.angle), pitch.bias, pitch.aa, pitch.ab, pitch.bb)
-        roll = Axis(wrapped(roll.angle), roll.bias, roll.aa, roll.ab, roll.bb)
+        # 5. Fold past ±90° of pitch again
+        pitch, roll = within_range(self, pitch, roll)
         slope = slope_at(pitch.angle, roll.angle)
         bias = state.given + body_bias(self, slope, pitch.bias, roll.bias)
         return State(
@@ -182,6 +184,18 @@ def predicted(x: Axis, u: float, T: float, q_angle: float, q_bias: float) -> Axi
     """X⁻ = A X + B u, P⁻ = A P Aᵀ + Q with A = [[1, −T], [0, 1]], B = [T, 0]."""
     ab = x.ab - T * x.bb
     return Axis(x.angle + T * (u - x.bias), x.bias, x.aa - T * (x.ab + ab) + q_angle, ab, x.bb + q_bias)
+
+
+@compiled
+def within_range(method: Tilt, pitch: Axis, roll: Axis) -> Axes:
+    """The same angles wrapped and, past ±90° of pitch, folded: θ → 180° − θ changes the sign of its rate, so of its bias."""
+    if method.kinematics == "euler" and folds(pitch.angle):
+        pitch = Axis(pi - pitch.angle, -pitch.bias, pitch.aa, pitch.ab, pitch.bb)
+        roll = Axis(roll.angle + pi, roll.bias, roll.aa, roll.ab, roll.bb)
+    return Axes(
+        Axis(wrapped(pitch.angle), pitch.bias, pitch.aa, pitch.ab, pitch.bb),
+        Axis(wrapped(roll.angle), roll.bias, roll.aa, roll.ab, roll.bb),
+    )
 
 
 @compiled

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from poise.data.attitude import COLUMNS, QUAT, Attitude, Provenance
+from poise.data.attitude import COLUMNS, QUAT, SIGMA, Attitude, Provenance
 from poise.errors import FormatError, RecordingError
-from poise.formats import evidence, names, parquet, recognise, text, text_head, units
+from poise.formats import bag, evidence, names, parquet, recognise, text, text_head, units
 from poise.formats.limits import Limits, Options
 from poise.formats.names import QUAT as QUAT_NAMES
 from poise.formats.table import Floats
@@ -21,18 +21,26 @@ TABLE = (*QUAT_NAMES, *(f"{name}_{axis}" for name in ("rate", "bias", "sigma", "
 TUM = ("timestamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw")
 
 
-def read_attitude(path: str | os.PathLike[str], *, limits: Limits | None = None) -> Attitude:
+def read_attitude(path: str | os.PathLike[str], *, topic: str | None = None, limits: Limits | None = None) -> Attitude:
     """The attitude in a Parquet, CSV or TUM file: one that poise wrote, or a table with time and qw, qx, qy, qz.
 
+    From a ROS bag, the orientation in the Imu messages of *topic*: body to ENU, with sigma where a covariance is given.
     Raises :class:`FormatError` where there is none.
     """
-    where, options = str(path), Options(limits=limits or Limits())
+    where, options = str(path), Options(topic=topic, limits=limits or Limits())
     path = Path(path)
     recognise.check(where, path, options.limits)
     kind = recognise.kind(where, path)
-    if kind not in ("text", "parquet"):
-        raise FormatError(f"{where}: attitudes are read from Parquet, CSV and TUM text, this is a {kind} file")
+    if kind not in ("text", "parquet", *bag.KINDS):
+        raise FormatError(
+            f"{where}: attitudes are read from Parquet, CSV, TUM text and ROS bags, this is a {kind} file"
+        )
     try:
+        if kind in bag.KINDS:
+            time, quat, sigma = bag.orientation(path, options)
+            attitude = reference(time, quat)
+            attitude.table[:, SIGMA] = sigma
+            return attitude
         found, facts, time_unit = (_from_parquet if kind == "parquet" else _from_text)(where, path, options)
         return _attitude(where, found, facts, time_unit)
     except RecordingError as problem:

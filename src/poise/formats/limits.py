@@ -51,4 +51,5 @@ class Options:
     delimiter: str | None = None
     decimal: str | None = None
     rate: float | None = None
+    topic: str | None = None
     limits: Limits = Limits()

@@ -1,31 +1,8 @@
-"""Run by path in a process of its own: load a MATLAB file and hand its numeric arrays on as npz on stdout.
+"""What the bounded child runs for a MATLAB file; not imported by the package."""
 
-Not imported by the package: a damaged file can crash the library that reads it, and only this process dies of that.
-"""
-
-import sys
-from contextlib import suppress
 from typing import Any
 
 LONGEST_NAME = 200
-
-
-def bound(memory: int, seconds: int) -> None:
-    """Limit this process's address space (bytes), processor time (s) and output, where the system can."""
-    try:
-        import resource
-    except ImportError:  # not on Windows: the parent's timeout remains
-        return
-    for limit, value in (
-        (resource.RLIMIT_AS, memory),
-        (resource.RLIMIT_CPU, seconds),
-        (resource.RLIMIT_FSIZE, memory),
-        (resource.RLIMIT_CORE, 0),
-    ):
-        hard = resource.getrlimit(limit)[1]
-        value = value if hard == resource.RLIM_INFINITY else min(value, hard)
-        with suppress(ValueError, OSError):  # a system without this limit
-            resource.setrlimit(limit, (value, value))
 
 
 def numbers(value: Any, name: str, found: dict[str, Any], depth: int = 0) -> None:
@@ -42,24 +19,10 @@ def numbers(value: Any, name: str, found: dict[str, Any], depth: int = 0) -> Non
             found[name] = array
 
 
-def main(path: str, memory: str, seconds: str) -> None:
-    """Load *path* within *memory* (bytes) and *seconds*."""
-    bound(int(memory), int(seconds))
-    import warnings
-
-    import numpy as np
+def load(path: str) -> dict[str, Any]:
+    """The numeric arrays in the file at *path*."""
     from scipy.io import loadmat
 
-    warnings.simplefilter("ignore")
     found: dict[str, Any] = {}
     numbers(loadmat(path, simplify_cells=True, appendmat=False), "", found)
-    np.savez(sys.stdout.buffer, **{f"v:{name}": array for name, array in found.items()})
-
-
-if __name__ == "__main__":
-    try:
-        main(*sys.argv[1:4])
-    except MemoryError:
-        sys.exit("needs more memory than a file of its size may take")
-    except Exception as problem:  # whatever a hostile file provokes, in one line
-        sys.exit(f"{type(problem).__name__}: {problem}"[:200])
+    return found

@@ -16,9 +16,10 @@ _MAGIC = (
     (b"MATLAB 7.3", "a MATLAB v7.3 (HDF5) file; save it as save('name.mat', ..., '-v7')"),
     (b"MATLAB", "mat"),
     (b"\x89HDF", "an HDF5 file; export it as CSV, Parquet or npz"),
-    (b"#ROSBAG", "a ROS 1 bag; export its sensor_msgs/Imu topic as CSV"),
-    (b"\x89MCAP", "an MCAP log; export its Imu topic as CSV"),
-    (b"SQLite format 3", "an SQLite database (a ROS 2 bag?); export its Imu topic as CSV"),
+    (b"#ROSBAG V2.0\n", "ros1"),
+    (b"#ROSBAG", "a ROS 1 bag of another version than 2.0; convert it with rosbag"),
+    (b"\x89MCAP0\r\n", "mcap"),
+    (b"SQLite format 3\0", "db3"),
     (b"ULog\x01\x12", "a PX4 ULog; export sensor_combined as CSV (ulog2csv)"),
     (b"\xa3\x95\x80", "an ArduPilot log; export its IMU and MAG messages as CSV"),
     (b"\x1f\x8b", "gzip data; unpack it first: gunzip FILE"),
@@ -41,35 +42,53 @@ _MAGIC = (
     (b"<?xml", "an XML document"),
 )
 _TEXT_BOMS = (b"\xff\xfe", b"\xfe\xff", b"\xef\xbb\xbf")
-_READABLE = "; poise reads CSV and other text tables, Parquet, npz and MATLAB files up to v7"
+_READ = ("parquet", "mat", "ros1", "mcap", "db3")
+_READABLE = "; poise reads CSV and other text tables, Parquet, npz, MATLAB files up to v7 and ROS bags"
+_METADATA = "metadata.yaml"  # what makes a folder a ROS 2 bag
 
 
 def check(where: str, path: Path, limits: Limits) -> None:
-    """Raises :class:`FormatError` where *path* is no regular file, cannot be opened, is empty or too large."""
+    """Raises :class:`FormatError` where *path* is no regular file or ROS 2 bag, cannot be opened, is empty or too large."""
     try:
-        found = path.stat()
-        if not stat.S_ISREG(found.st_mode):
-            kind = "a folder" if stat.S_ISDIR(found.st_mode) else "a device or pipe"
-            raise FormatError(f"{where}: {kind}, expected a file")
-        with path.open("rb") as file:
-            file.read(1)
+        size = 0
+        for part in files(path):
+            found = part.stat()
+            if not stat.S_ISREG(found.st_mode):
+                kind = f"a folder without {_METADATA}" if stat.S_ISDIR(found.st_mode) else "a device or pipe"
+                inside = "" if part == path else f"{part.name} in it is "
+                raise FormatError(f"{where}: {inside}{kind}, expected a file or a ROS 2 bag's folder")
+            with part.open("rb") as file:
+                file.read(1)
+            size += found.st_size
     except (OSError, ValueError) as problem:
         reason = getattr(problem, "strerror", None) or str(problem)
         raise FormatError(f"{where}: cannot be opened: {reason}") from None
-    if not found.st_size:
+    if not size:
         raise FormatError(f"{where}: the file is empty")
-    limits.check(where, "size", found.st_size)
+    limits.check(where, "size", size)
+
+
+def files(path: Path) -> list[Path]:
+    """The files that make up *path*: itself, or those in a ROS 2 bag's folder in order of their names."""
+    if not (path / _METADATA).exists():
+        return [path]
+    return sorted(part for part in path.iterdir() if not part.is_dir())
 
 
 def kind(where: str, path: Path) -> str:
-    """Which reader takes the file: "text", "parquet", "npz" or "mat"; raises :class:`FormatError` where none does."""
+    """Which reader takes the file: "text", "parquet", "npz", "mat", "ros1", "ros2", "mcap" or "db3".
+
+    Raises :class:`FormatError` where none does.
+    """
+    if path.is_dir():
+        return "ros2"
     with path.open("rb") as file:
         head = file.read(4096)
     for magic, what in _MAGIC:
         if head.startswith(magic):
             if what == "zip":
                 return _zip(where, path)
-            if what in ("parquet", "mat"):
+            if what in _READ:
                 return what
             raise FormatError(f"{where}: {what}" + (_READABLE if ";" not in what else ""))
     if head[124:128] in (b"\x00\x01IM", b"\x01\x00MI"):

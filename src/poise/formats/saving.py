@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import secrets
+import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -29,3 +30,36 @@ def replacing(path: Path) -> Iterator[BinaryIO]:
         raise FormatError(f"{path}: cannot be written: {problem.strerror or problem}") from None
     finally:
         part.unlink(missing_ok=True)
+
+
+@contextmanager
+def making(path: Path) -> Iterator[Path]:
+    """A name for a library to make a file or folder under, that takes the name *path* when the block ends well.
+
+    A folder at *path* is replaced whole. Raises :class:`FormatError` where the folder above cannot be written to.
+    """
+    workshop = path.with_name(f".{path.name[:100]}.{secrets.token_hex(4)}.part")
+    try:
+        workshop.mkdir()
+        made, old = workshop / path.name, workshop / "old"
+        yield made
+        for file in [made, *made.rglob("*")]:
+            if file.is_file():
+                with file.open("rb+") as written:
+                    os.fsync(written.fileno())
+        if not made.is_dir():
+            made.replace(path)
+            return
+        if path.is_dir():
+            path.rename(old)
+        try:
+            made.rename(path)
+        except OSError:
+            if old.exists():
+                old.rename(path)
+            raise
+    except OSError as problem:
+        raise FormatError(f"{path}: cannot be written: {problem.strerror or problem}") from None
+    finally:
+        if path.exists() or not (workshop / "old").exists():  # never the only copy
+            shutil.rmtree(workshop, ignore_errors=True)

@@ -14,22 +14,39 @@ from poise.data import arrow
 from poise.data.attitude import Attitude
 from poise.data.recording import Recording
 from poise.errors import FormatError
+from poise.formats import bag_writing
 from poise.formats.attitudes import TUM
 from poise.formats.names import QUAT, SENSORS
 from poise.formats.npz import FACTS
 from poise.formats.saving import replacing
 from poise.formats.units import SI
 
-_SUFFIXES = {".parquet": "parquet", ".csv": "csv", ".tum": "tum", ".txt": "tum", ".npz": "npz"}
-_KINDS = {Attitude: ("parquet", "csv", "tum"), Recording: ("parquet", "csv", "npz")}
+_SUFFIXES = {
+    ".parquet": "parquet",
+    ".csv": "csv",
+    ".tum": "tum",
+    ".txt": "tum",
+    ".npz": "npz",
+    ".bag": "bag",
+    ".mcap": "mcap",
+}
+_KINDS = {Attitude: ("parquet", "csv", "tum", *bag_writing.KINDS), Recording: ("parquet", "csv", "npz")}
 _BLOCK = 65_536  # rows
 
 
-def write(thing: Attitude | Recording, path: str | os.PathLike[str], format: str | None = None) -> Path:
-    """Write an attitude (Parquet, CSV, TUM) or a recording (Parquet, CSV, npz); returns the path.
+def write(
+    thing: Attitude | Recording,
+    path: str | os.PathLike[str],
+    format: str | None = None,
+    *,
+    recording: Recording | None = None,
+) -> Path:
+    """Write an attitude (Parquet, CSV, TUM, ROS bag) or a recording (Parquet, CSV, npz); returns the path.
 
-    The format is *format* or follows from the extension. Raises :class:`FormatError` where it does not fit or the
-    file cannot be written; then nothing is left behind and what stood there before still stands.
+    The format is *format* or follows from the extension; "bag" is ROS 1, "mcap" one file and "ros2" a folder of ROS 2,
+    which take the angular velocity and linear acceleration of the attitude's *recording* along.
+    Raises :class:`FormatError` where it does not fit or the file cannot be written; then nothing is left behind and what
+    stood there before still stands.
     """
     path = Path(path)
     allowed = next((kinds for kind, kinds in _KINDS.items() if isinstance(thing, kind)), None)
@@ -42,6 +59,9 @@ def write(thing: Attitude | Recording, path: str | os.PathLike[str], format: str
             f"{path}: {kind or path.suffix or 'no extension'} is no format for {what}; "
             f"expected {', '.join(allowed)} (by extension or format=)"
         )
+    if kind in bag_writing.KINDS and isinstance(thing, Attitude):
+        bag_writing.write(thing, path, kind, recording)
+        return path
     with replacing(path) as file:
         if kind == "npz" and isinstance(thing, Recording):
             _npz(thing, file)
