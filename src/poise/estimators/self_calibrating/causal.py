@@ -94,6 +94,12 @@ class SelfCalibrating(NamedTuple):
     local_field: Annotated[float, "rad", "how far magnetic north here may be from that of the region", (0.0, pi)] = (
         radians(1.5)
     )
+    level_error: Annotated[float, "rad", "how far the accelerometer's own up is off: its bias", (0.0, pi)] = radians(
+        0.25
+    )
+    time_error: Annotated[float, "s", "how far the attitude's instant is off: delays in the gyroscope", (0.0, 1.0)] = (
+        0.002
+    )
     initial_tilt: Annotated[float, "rad", "σ of pitch and roll at the start", (1e-6, 10.0)] = radians(5.4)
     initial_heading: Annotated[float, "rad", "σ of the heading at the start", (1e-6, 10.0)] = radians(60.0)
     initial_bias: Annotated[float, "rad/s", "σ of the gyroscope's bias at the start", (1e-9, 10.0)] = radians(1.0)
@@ -202,15 +208,20 @@ class SelfCalibrating(NamedTuple):
         return closed(self, State(q, state.bias, w, mean_gyr, mean_acc, seconds, state.begun, P), sums, known)
 
     def output(self, state: State, sample: Sample) -> Output:
-        """The attitude, after *lead*, with true north; sigma about the Earth's axes from P."""
+        """The attitude, after *lead*, with true north; sigma about the Earth's axes from P and what P cannot know."""
         q = state.attitude
         if self.lead != 0.0:
             q = q * exp(self.lead * state.rate)
         if self.declination != 0.0:
             q = exp(-self.declination * UP) * q
         P = state.P
-        heading = float(P[2, 2]) + (self.local_field**2 if float(P[SENSOR, 20]) > 0.0 else 0.0)
-        sigma = Vec3(_sigma(float(P[0, 0])), _sigma(float(P[1, 1])), _sigma(heading))
+        north = self.local_field**2 if float(P[SENSOR, 20]) > 0.0 else 0.0
+        turned, level = self.time_error * rotate(q, state.rate), self.level_error**2
+        sigma = Vec3(
+            _sigma(float(P[0, 0]) + level + turned.x * turned.x),
+            _sigma(float(P[1, 1]) + level + turned.y * turned.y),
+            _sigma(float(P[2, 2]) + north + turned.z * turned.z),
+        )
         bias_sigma = Vec3(sqrt(float(P[3, 3])), sqrt(float(P[4, 4])), sqrt(float(P[5, 5])))
         flags = REST if state.still >= self.rest_time else 0
         if float(P[SENSOR, 21]) > 0.05**2:

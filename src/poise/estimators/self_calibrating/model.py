@@ -391,9 +391,7 @@ def back_through_block(future: Floats, P: Floats, at: int) -> None:
         future[BIAS + 1, j] -= S_R.x.y * ex + S_R.y.y * ey + S_R.z.y * ez
         future[BIAS + 2, j] -= S_R.x.z * ex + S_R.y.z * ey + S_R.z.z * ez
         for k in range(9):
-            future[SCALE + k, j] += (
-                P[at + _TURNED, k] * ex + P[at + _TURNED + 1, k] * ey + P[at + _TURNED + 2, k] * ez
-            )
+            future[SCALE + k, j] += P[at + _TURNED, k] * ex + P[at + _TURNED + 1, k] * ey + P[at + _TURNED + 2, k] * ez
         future[TURN, j] += S_f.y * vz - S_f.z * vy
         future[TURN + 1, j] += S_f.z * vx - S_f.x * vz
         future[TURN + 2, j] += S_f.x * vy - S_f.y * vx
@@ -402,8 +400,8 @@ def back_through_block(future: Floats, P: Floats, at: int) -> None:
 
 @entry
 def back(log: Floats, future: Floats, corrections: Floats) -> None:
-    """From the last entry of *log* to the first: the corrections (n, 18) of ε and bias after each block, what was injected
-    there, their variances, and whether the attitude was begun anew; *future* (27, 25) holds Λ, λ and room.
+    """From the last entry of *log* to the first: the corrections (n, 22) of ε and bias after each block, what was injected
+    there, their variances, whether the attitude was begun anew, ε's causal variances; *future* (27, 25) holds Λ, λ and room.
     """
     for n in range(len(corrections) - 1, -1, -1):
         at = n * ENTRY
@@ -419,6 +417,8 @@ def back(log: Floats, future: Floats, corrections: Floats) -> None:
             corrections[n, 6 + i] = log[at + _INJECTED, i]
             corrections[n, 12 + i] = variance
         corrections[n, 18] = log[at + 1, _ONE]
+        for i in range(3):
+            corrections[n, 19 + i] = log[at + i, i]
         if log[at + 1, _ONE] != 0.0:  # attitude and velocity begun anew: the future says nothing of those before
             for i in range(SIZE + 1):
                 for k in range(3):

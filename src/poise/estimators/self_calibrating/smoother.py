@@ -18,7 +18,10 @@ from poise.estimators.self_calibrating.model import ENTRIES, ENTRY, SENSOR, SIZE
 from poise.math import arrays
 
 _PART = 8192  # rows of a recording at a time
-_INDEX, _KNOWN = np.uint32(20), np.uint32(0xFFFFF)  # where in the flags the log's entry is counted, and what is left of them
+_INDEX, _KNOWN = (
+    np.uint32(20),
+    np.uint32(0xFFFFF),
+)  # where in the flags the log's entry is counted, and what is left of them
 
 
 def smooth(
@@ -72,19 +75,21 @@ def _unwrapped(count: np.ndarray) -> np.ndarray:
     return np.asarray(np.cumsum(steps))
 
 
-def _correct(past: Attitude, entry: np.ndarray, log: Floats, method: SelfCalibrating, window: float, overlap: float) -> None:
+def _correct(
+    past: Attitude, entry: np.ndarray, log: Floats, method: SelfCalibrating, window: float, overlap: float
+) -> None:
     """Put into *past* what the future says of it."""
     n = len(log) // ENTRY
     ends = np.searchsorted(entry, np.arange(1, n + 1))  # the row at which each entry was finished
     time = past.time[np.minimum(ends, len(entry) - 1)]
-    corrections = np.zeros((n, 19))
+    corrections = np.zeros((n, 22))
     first = 0
     while first < n:
         last = int(np.searchsorted(time, time[first] + window)) if window < time[-1] - time[first] else n
         last = max(last, first + 1)
         ahead = max(int(np.searchsorted(time, time[last - 1] + overlap)), last) if last < n else n
         future = np.zeros((SIZE + 2, SIZE))
-        part = np.zeros((ahead - first, 19))
+        part = np.zeros((ahead - first, 22))
         back(log[first * ENTRY : ahead * ENTRY], future, part)
         corrections[first:last] = part[: last - first]
         first = last
@@ -116,7 +121,8 @@ def _apply(
     past.quat[:] = arrays.continuous(arrays.multiply(half, past.quat))
     past.bias[:] += bias
     past.rate[:] -= bias
-    variance = np.maximum((1.0 - share) * corrections[before, 12:18] + share * corrections[after, 12:18], 0.0)
-    variance[:, 2] += np.where(np.isfinite(past.sigma[:, 2]), method.local_field**2, 0.0)
-    past.sigma[:] = np.minimum(np.sqrt(variance[:, :3]), np.pi)
-    past.bias_sigma[:] = np.sqrt(variance[:, 3:])
+    inner = (1.0 - share) * corrections[before, 12:18] + share * corrections[after, 12:18]
+    known = (1.0 - share) * corrections[before, 19:22] + share * corrections[after, 19:22]
+    # What is in the causal sigma beside P stays; of P the future takes its part.
+    past.sigma[:] = np.minimum(np.sqrt(np.maximum(past.sigma**2 - known + inner[:, :3], 0.0)), np.pi)
+    past.bias_sigma[:] = np.sqrt(np.maximum(inner[:, 3:], 0.0))
