@@ -33,6 +33,7 @@ _HOME = {
     "evaluate": "poise.evaluation",
     "read": "poise.formats",
     "read_attitude": "poise.formats",
+    "smooth": "poise.estimators.self_calibrating.smoother",
     "sniff": "poise.formats",
     "write": "poise.formats",
 }
@@ -56,6 +57,7 @@ if TYPE_CHECKING:
     from poise.estimators.self_calibrating.causal import SelfCalibrating as SelfCalibrating
     from poise.estimators.tilt import Tilt as Tilt
     from poise.estimators.two_stage import TwoStage as TwoStage
+    from poise.estimators.self_calibrating.smoother import smooth as smooth
     from poise.evaluation import Errors as Errors
     from poise.evaluation import evaluate as evaluate
     from poise.formats import read as read

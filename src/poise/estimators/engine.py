@@ -192,6 +192,17 @@ class Stream:
         return None if self._memory is None else copied(state_of(self._memory))
 
     @property
+    def learned(self) -> dict[str, Any] | None:
+        """What the method has found out about the sensors so far, where it does: name → value, sigma and unit."""
+        core, state = _core(self._running), self.running_state
+        if state is None or not hasattr(core, "learned"):
+            return None
+        while hasattr(state, "inner"):
+            state = state.inner
+        found: dict[str, Any] = core.learned(state)
+        return found
+
+    @property
     def running_state(self) -> Any:
         """The method's state itself, where it holds arrays, not a snapshot; None before the first sample."""
         return None if self._memory is None else state_of(self._memory)
@@ -330,7 +341,7 @@ def feed(
         if progress is not None:
             progress(part.stop)
     provenance = replace(stream._provenance, source=recording.source, source_hash=recording.source_hash)
-    return Attitude(recording.time.copy(), table, flags, stream._heading, "enu", provenance)
+    return Attitude(recording.time.copy(), table, flags, stream._heading, "enu", provenance, stream.learned)
 
 
 def _revived(method: Any, start: Any, bias: Any, guard: bool, rest_bias: bool, silence: float, saved: bytes) -> Stream:

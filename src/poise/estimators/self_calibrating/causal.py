@@ -10,7 +10,7 @@ Departures from the print: there is none; what was tried and left out stands on 
 from __future__ import annotations
 
 from math import atan2, cos, pi, radians, sqrt
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
@@ -231,6 +231,30 @@ class SelfCalibrating(NamedTuple):
         if self.log > 0:  # which entry of the log the row stands behind
             flags |= (int(P[SENSOR, 22]) & 0xFFF) << 20
         return Output(sample.dt, q, state.rate, state.bias, sigma, bias_sigma, flags)
+
+    def learned(self, state: State) -> dict[str, dict[str, Any]]:
+        """What is known of the sensors by now: name → value, its sigma (of the same shape) and unit.
+
+        ``gyr_bias`` (3) and ``gyr_scale`` (3, 3) with ω = (I + A)(gyr − bias); ``field`` (2), north and up, ``hard_iron`` (3,
+        body frame) in the magnetometer's unit; ``mag_delay`` and ``acc_delay`` behind the gyroscope.
+        """
+        P, known = state.P, sensor_of(state.P)
+        sigma = np.sqrt(np.maximum(np.diag(P[:SIZE, :SIZE]), 0.0))
+        found = {
+            "gyr_bias": _learned(state.bias, sigma[BIAS : BIAS + 3], "rad/s"),
+            "gyr_scale": _learned(known.scale, sigma[SCALE : SCALE + 9].reshape(3, 3), "1"),
+            "acc_delay": _learned(known.acc_delay, sigma[ACC_DELAY], "s"),
+        }
+        if known.length > 0.0:
+            length = known.length
+            found["field"] = _learned(length * np.array(known.field[1:]), length * sigma[FIELD : FIELD + 2], "µT")
+            found["hard_iron"] = _learned(length * np.array(known.iron), length * sigma[IRON : IRON + 3], "µT")
+            found["mag_delay"] = _learned(known.mag_delay, sigma[MAG_DELAY], "s")
+        return found
+
+
+def _learned(value: Any, sigma: Any, unit: str) -> dict[str, Any]:
+    return {"value": np.array(value, float).tolist(), "sigma": np.array(sigma, float).tolist(), "unit": unit}
 
 
 @compiled

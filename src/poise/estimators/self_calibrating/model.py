@@ -135,7 +135,7 @@ def grow(P: Floats, sums: Sums, noise: Noise) -> None:
 @compiled
 def entry_row(P: Floats) -> int:
     """Where the present entry of the log begins; the count of finished entries is kept beside the sensor's numbers."""
-    room = (P.shape[0] - ENTRIES) // ENTRY
+    room: int = (P.shape[0] - ENTRIES) // ENTRY
     return ENTRIES + ENTRY * min(int(P[SENSOR, 22]) - int(P[SENSOR, 23]), room - 1)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from poise.data.attitude import Attitude
 from poise.data.recording import Recording
@@ -16,6 +16,8 @@ from poise.estimators.self_calibrating.causal import SelfCalibrating
 from poise.estimators.self_calibrating.model import COLUMNS as WIDTH
 from poise.estimators.self_calibrating.model import ENTRIES, ENTRY, SENSOR, SIZE, Floats, back
 from poise.math import arrays
+
+Indices = NDArray[np.int64]
 
 _PART = 8192  # rows of a recording at a time
 _INDEX, _KNOWN = (
@@ -59,9 +61,9 @@ def smooth(
 def _taken(stream: Stream) -> Floats:
     """The finished entries of the log so far, (k · ENTRY, WIDTH); the log is empty then."""
     state = stream.running_state
-    while not hasattr(state, "P"):
+    while hasattr(state, "inner"):
         state = state.inner
-    P = state.P
+    P: Floats = state.P
     done = int(P[SENSOR, 22] - P[SENSOR, 23])
     taken = P[ENTRIES : ENTRIES + done * ENTRY].copy()
     P[ENTRIES : ENTRIES + ENTRY] = P[ENTRIES + done * ENTRY : ENTRIES + (done + 1) * ENTRY]
@@ -69,14 +71,14 @@ def _taken(stream: Stream) -> Floats:
     return taken
 
 
-def _unwrapped(count: np.ndarray) -> np.ndarray:
+def _unwrapped(count: NDArray[np.uint32]) -> Indices:
     """Entries finished up to each row, from their number modulo 4096; a row ends one at most."""
-    steps = np.diff(count.astype(np.int64), prepend=0) % 4096
-    return np.asarray(np.cumsum(steps))
+    steps: Indices = np.mod(np.diff(count.astype(np.int64), prepend=0), 4096)
+    return np.cumsum(steps)
 
 
 def _correct(
-    past: Attitude, entry: np.ndarray, log: Floats, method: SelfCalibrating, window: float, overlap: float
+    past: Attitude, entry: Indices, log: Floats, method: SelfCalibrating, window: float, overlap: float
 ) -> None:
     """Put into *past* what the future says of it."""
     n = len(log) // ENTRY
@@ -97,7 +99,7 @@ def _correct(
 
 
 def _apply(
-    past: Attitude, entry: np.ndarray, ends: np.ndarray, time: Floats, corrections: Floats, method: SelfCalibrating
+    past: Attitude, entry: Indices, ends: Indices, time: Floats, corrections: Floats, method: SelfCalibrating
 ) -> None:
     """Corrections of the blocks' ends, in between in proportion to time, onto every row."""
     n = len(corrections)
