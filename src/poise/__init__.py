@@ -55,9 +55,9 @@ if TYPE_CHECKING:
     from poise.estimators.guard import Guard as Guard
     from poise.estimators.rest_bias import RestBias as RestBias
     from poise.estimators.self_calibrating.causal import SelfCalibrating as SelfCalibrating
+    from poise.estimators.self_calibrating.smoother import smooth as smooth
     from poise.estimators.tilt import Tilt as Tilt
     from poise.estimators.two_stage import TwoStage as TwoStage
-    from poise.estimators.self_calibrating.smoother import smooth as smooth
     from poise.evaluation import Errors as Errors
     from poise.evaluation import evaluate as evaluate
     from poise.formats import read as read
