@@ -76,7 +76,7 @@ class State(NamedTuple):
 class SelfCalibrating(NamedTuple):
     """Our flagship: learns bias, scale, misalignment, hard iron and delays of its sensors, and says how sure it is."""
 
-    block: Annotated[float, "s", "time between two corrections", (1e-3, 1.0)] = 0.05
+    block: Annotated[float, "s", "time between two corrections", (1e-3, 1.0)] = 0.08
     gyr_noise: Annotated[float, "rad/s/√Hz", "gyroscope white noise σ_g", (0.0, 10.0)] = 1e-4
     scale_noise: Annotated[float, "√s", "k: noise per rate, of what A does not explain", (0.0, 10.0)] = 1e-4
     bias_walk: Annotated[float, "rad/s/√s", "random walk of the bias in motion", (0.0, 10.0)] = 2e-4

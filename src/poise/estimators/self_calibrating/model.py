@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from poise.math.compiled import compiled, entry
+from poise.math.compiled import compiled
 from poise.math.matrices import Mat3
 from poise.math.vectors import ZERO, Vec3
 
@@ -28,8 +28,8 @@ SUMS, SENSOR, ROWS, COLUMNS = 31, 34, 35, 28
 # Behind that, where a smoother asked for it, one entry a block: P's rows of ε and bias after the corrections, what was
 # injected, what the block added up, and each correction's h and P h. Column 25 of the entry's rows holds single numbers.
 ENTRIES, ENTRY = ROWS, 28
-_INJECTED, _TURNED, _CORRECTIONS, _MOST = 6, 7, 10, 9
-_ONE = SIZE  # the column of single numbers
+INJECTED, ADDED, CORRECTIONS, MOST = 6, 7, 10, 9
+ONE = SIZE  # the column of single numbers
 
 _NONE = Mat3(ZERO, ZERO, ZERO)
 
@@ -145,14 +145,14 @@ def enter_correction(P: Floats, residual: float, per_S: float) -> None:
     if P.shape[0] <= ROWS:
         return
     at = entry_row(P)
-    n = int(P[at, _ONE])
-    if n == _MOST:
+    n = int(P[at, ONE])
+    if n == MOST:
         return
-    row = at + _CORRECTIONS + 2 * n
+    row = at + CORRECTIONS + 2 * n
     for j in range(SIZE):
         P[row, j], P[row + 1, j] = P[H, j], P[ROOM, j]
-    P[row, _ONE], P[row + 1, _ONE] = residual, per_S
-    P[at, _ONE] = n + 1.0
+    P[row, ONE], P[row + 1, ONE] = residual, per_S
+    P[at, ONE] = n + 1.0
 
 
 @compiled
@@ -165,16 +165,16 @@ def enter_block(P: Floats, s: Sums, restarted: bool) -> None:
         for j in range(SIZE):
             P[at + i, j] = P[i, j]
     for j in range(SIZE):
-        P[at + _INJECTED, j] = P[X, j]
+        P[at + INJECTED, j] = P[X, j]
     for i in range(3):
         for k in range(9):
-            P[at + _TURNED + i, k] = P[TURNED + i, k]
-    put_three(P, at + _TURNED, 9, s.rotation)
-    put(P, at + _TURNED + 1, 9, s.force)
-    put(P, at + _TURNED + 2, 9, s.force_late)
-    P[at + 1, _ONE] = 1.0 if restarted else 0.0
+            P[at + ADDED + i, k] = P[TURNED + i, k]
+    put_three(P, at + ADDED, 9, s.rotation)
+    put(P, at + ADDED + 1, 9, s.force)
+    put(P, at + ADDED + 2, 9, s.force_late)
+    P[at + 1, ONE] = 1.0 if restarted else 0.0
     P[SENSOR, 22] += 1.0
-    P[entry_row(P), _ONE] = 0.0
+    P[entry_row(P), ONE] = 0.0
 
 
 @compiled
@@ -332,102 +332,3 @@ def begin_block(P: Floats) -> None:
         for k in range(9):
             P[TURNED + i, k] = 0.0
     put_sums(P, NOTHING)
-
-
-# -- the way back (Bierman 1977): what the future says, λ and Λ, so that the smoothed errors are −P λ, covariance P − P Λ P
-
-
-@compiled
-def back_through_correction(future: Floats, P: Floats, row: int) -> None:
-    """λ ← λ − h (r/S + kᵀλ), Λ ← h hᵀ/S + (I − h kᵀ) Λ (I − k hᵀ) with k = P h/S (eq. 20)."""
-    residual, per_S = float(P[row, _ONE]), float(P[row + 1, _ONE])
-    ahead, through = 0.0, 0.0  # kᵀ λ, kᵀ Λ k
-    for j in range(SIZE):
-        future[SIZE + 1, j] = 0.0
-        ahead += per_S * P[row + 1, j] * future[SIZE, j]
-    for i in range(SIZE):
-        weight = per_S * P[row + 1, i]
-        for j in range(SIZE):
-            future[SIZE + 1, j] += weight * future[i, j]
-    for j in range(SIZE):
-        through += per_S * P[row + 1, j] * future[SIZE + 1, j]
-    pull = residual * per_S + ahead
-    for i in range(SIZE):
-        h = float(P[row, i])
-        if h != 0.0:
-            future[SIZE, i] -= h * pull
-    for i in range(SIZE):
-        h, a = float(P[row, i]), float(future[SIZE + 1, i])
-        if h != 0.0:
-            weight = h * (per_S + through)
-            for j in range(SIZE):
-                future[i, j] += weight * P[row, j] - h * future[SIZE + 1, j]
-        for j in range(SIZE):
-            future[i, j] -= a * P[row, j]
-
-
-@compiled
-def back_through_block(future: Floats, P: Floats, at: int) -> None:
-    """λ ← Fᵀ λ, Λ ← Fᵀ Λ F (eq. 21), with F as in :func:`grow`."""
-    S_R, S_f, S_l = three(P, at + _TURNED, 9), vector(P, at + _TURNED + 1, 9), vector(P, at + _TURNED + 2, 9)
-    for i in range(SIZE + 1):  # every row of Λ, and λ: times F
-        e = vector(future, i, TURN)
-        v = vector(future, i, VELOCITY)
-        future[i, BIAS] -= S_R.x.x * e.x + S_R.y.x * e.y + S_R.z.x * e.z
-        future[i, BIAS + 1] -= S_R.x.y * e.x + S_R.y.y * e.y + S_R.z.y * e.z
-        future[i, BIAS + 2] -= S_R.x.z * e.x + S_R.y.z * e.y + S_R.z.z * e.z
-        for k in range(9):
-            future[i, SCALE + k] += (
-                P[at + _TURNED, k] * e.x + P[at + _TURNED + 1, k] * e.y + P[at + _TURNED + 2, k] * e.z
-            )
-        future[i, TURN] += S_f.y * v.z - S_f.z * v.y
-        future[i, TURN + 1] += S_f.z * v.x - S_f.x * v.z
-        future[i, TURN + 2] += S_f.x * v.y - S_f.y * v.x
-        future[i, ACC_DELAY] += S_l.x * v.x + S_l.y * v.y + S_l.z * v.z
-    for j in range(SIZE):  # every column of Λ: Fᵀ times
-        ex, ey, ez = future[TURN, j], future[TURN + 1, j], future[TURN + 2, j]
-        vx, vy, vz = future[VELOCITY, j], future[VELOCITY + 1, j], future[VELOCITY + 2, j]
-        future[BIAS, j] -= S_R.x.x * ex + S_R.y.x * ey + S_R.z.x * ez
-        future[BIAS + 1, j] -= S_R.x.y * ex + S_R.y.y * ey + S_R.z.y * ez
-        future[BIAS + 2, j] -= S_R.x.z * ex + S_R.y.z * ey + S_R.z.z * ez
-        for k in range(9):
-            future[SCALE + k, j] += P[at + _TURNED, k] * ex + P[at + _TURNED + 1, k] * ey + P[at + _TURNED + 2, k] * ez
-        future[TURN, j] += S_f.y * vz - S_f.z * vy
-        future[TURN + 1, j] += S_f.z * vx - S_f.x * vz
-        future[TURN + 2, j] += S_f.x * vy - S_f.y * vx
-        future[ACC_DELAY, j] += S_l.x * vx + S_l.y * vy + S_l.z * vz
-
-
-@entry
-def back(log: Floats, future: Floats, corrections: Floats) -> None:
-    """From the last entry of *log* to the first: the corrections (n, 22) of ε and bias after each block, what was injected
-    there, their variances, whether the attitude was begun anew, ε's causal variances; *future* (27, 25) holds Λ, λ and room.
-    """
-    for n in range(len(corrections) - 1, -1, -1):
-        at = n * ENTRY
-        for i in range(6):
-            correction, variance = 0.0, float(log[at + i, i])
-            for j in range(SIZE):
-                correction -= log[at + i, j] * future[SIZE, j]
-                ahead = 0.0
-                for k in range(SIZE):
-                    ahead += future[j, k] * log[at + i, k]
-                variance -= log[at + i, j] * ahead
-            corrections[n, i] = correction
-            corrections[n, 6 + i] = log[at + _INJECTED, i]
-            corrections[n, 12 + i] = variance
-        corrections[n, 18] = log[at + 1, _ONE]
-        for i in range(3):
-            corrections[n, 19 + i] = log[at + i, i]
-        if log[at + 1, _ONE] != 0.0:  # attitude and velocity begun anew: the future says nothing of those before
-            for i in range(SIZE + 1):
-                for k in range(3):
-                    future[i, TURN + k] = 0.0
-                    future[i, VELOCITY + k] = 0.0
-                    if i < SIZE:
-                        future[TURN + k, i] = 0.0
-                        future[VELOCITY + k, i] = 0.0
-        else:
-            for m in range(int(log[at, _ONE]) - 1, -1, -1):
-                back_through_correction(future, log, at + _CORRECTIONS + 2 * m)
-            back_through_block(future, log, at)

@@ -12,9 +12,10 @@ from poise.data.attitude import Attitude
 from poise.data.recording import Recording
 from poise.errors import MethodError
 from poise.estimators.engine import Stream, feed
+from poise.estimators.self_calibrating.backward import apply, back
 from poise.estimators.self_calibrating.causal import SelfCalibrating
 from poise.estimators.self_calibrating.model import COLUMNS as WIDTH
-from poise.estimators.self_calibrating.model import ENTRIES, ENTRY, SENSOR, SIZE, Floats, back
+from poise.estimators.self_calibrating.model import ENTRIES, ENTRY, SENSOR, SIZE, Floats
 from poise.math import arrays
 
 Indices = NDArray[np.int64]
@@ -95,36 +96,6 @@ def _correct(
         back(log[first * ENTRY : ahead * ENTRY], future, part)
         corrections[first:last] = part[: last - first]
         first = last
-    _apply(past, entry, ends, time, corrections, method)
-
-
-def _apply(
-    past: Attitude, entry: Indices, ends: Indices, time: Floats, corrections: Floats, method: SelfCalibrating
-) -> None:
-    """Corrections of the blocks' ends, in between in proportion to time, onto every row."""
-    n = len(corrections)
-    if n == 0:
-        return
-    before = np.clip(entry - 1, 0, n - 1)  # the entry that the row stands behind
-    after = np.clip(entry, 0, n - 1)
-    at_start, at_end = corrections[before, :6], corrections[after, :6] + corrections[after, 6:12]
-    span = time[after] - time[before]
-    share = np.where(span > 0.0, (past.time - time[before]) / np.where(span > 0.0, span, 1.0), 0.0)
-    share = np.clip(np.nan_to_num(share), 0.0, 1.0)[:, None]
-    whole = (corrections[after, 18] == 0.0)[:, None] & (entry >= 1)[:, None] & (entry < n)[:, None]
-    first = (entry == 0)[:, None]
-    change = np.where(whole, (1.0 - share) * at_start + share * at_end, np.where(first, at_end, at_start))
-    turn, bias = change[:, :3], change[:, 3:6]
-    angle = np.linalg.norm(turn, axis=1, keepdims=True)
-    half = np.concatenate([np.cos(0.5 * angle), 0.5 * np.sinc(0.5 * angle / np.pi) * turn], axis=1)
-    if method.declination:  # the filter's north is magnetic, the rows' true
-        north = arrays.turn_about_up(np.array(-method.declination))
-        half = arrays.multiply(arrays.multiply(north, half), arrays.conjugate(north))
-    past.quat[:] = arrays.continuous(arrays.multiply(half, past.quat))
-    past.bias[:] += bias
-    past.rate[:] -= bias
-    inner = (1.0 - share) * corrections[before, 12:18] + share * corrections[after, 12:18]
-    known = (1.0 - share) * corrections[before, 19:22] + share * corrections[after, 19:22]
-    # What is in the causal sigma beside P stays; of P the future takes its part.
-    past.sigma[:] = np.minimum(np.sqrt(np.maximum(past.sigma**2 - known + inner[:, :3], 0.0)), np.pi)
-    past.bias_sigma[:] = np.sqrt(np.maximum(inner[:, 3:], 0.0))
+    if n:
+        apply(past.time, entry, past.table, time, corrections, method.declination)
+        past.quat[:] = arrays.continuous(past.quat)
