@@ -129,11 +129,18 @@ def back(log: Floats, future: Floats, corrections: Floats) -> None:
 
 @entry
 def apply(
-    rows: Floats, index: NDArray[np.int64], table: Floats, time: Floats, corrections: Floats, declination: float
+    rows: Floats,
+    index: NDArray[np.int64],
+    table: Floats,
+    time: Floats,
+    corrections: Floats,
+    begun: Vec3,
+    declination: float,
 ) -> None:
     """The blocks' corrections on every row of *table* (n, 16): at *rows* (s), which stand behind *index* entries.
 
-    Between the ends of two blocks (at *time*) in proportion to time; the end's is of before its injection.
+    Between the ends of two blocks (at *time*) in proportion to time; the end's is of before its injection. *begun* are the
+    variances of ε (rad²) before the first end.
     """
     north = exp(-declination * UP)
     south = exp(declination * UP)
@@ -156,8 +163,9 @@ def apply(
             change = bias.x if i == 0 else (bias.y if i == 1 else bias.z)
             table[r, 4 + i] -= change
             table[r, 7 + i] += change
-            # What is in the causal sigma beside P stays; of P the future takes its part.
-            known = (1.0 - share) * corrections[before, 19 + i] + share * corrections[after, 19 + i]
+            # What is in the causal sigma beside P stays; P, there, is that of the last end, until the next.
+            first = begun.x if i == 0 else (begun.y if i == 1 else begun.z)
+            known = first if index[r] == 0 else corrections[before, 19 + i]
             now = (1.0 - share) * corrections[before, 12 + i] + share * corrections[after, 12 + i]
             table[r, 10 + i] = min(sqrt(max(table[r, 10 + i] ** 2 - known + now, 0.0)), pi)
             table[r, 13 + i] = sqrt(

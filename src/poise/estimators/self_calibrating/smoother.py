@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from math import pi
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,6 +18,7 @@ from poise.estimators.self_calibrating.causal import SelfCalibrating
 from poise.estimators.self_calibrating.model import COLUMNS as WIDTH
 from poise.estimators.self_calibrating.model import ENTRIES, ENTRY, SENSOR, SIZE, Floats
 from poise.math import arrays
+from poise.math.vectors import Vec3
 
 Indices = NDArray[np.int64]
 
@@ -97,5 +99,8 @@ def _correct(
         corrections[first:last] = part[: last - first]
         first = last
     if n:
-        apply(past.time, entry, past.table, time, corrections, method.declination)
+        tilt, heading = method.initial_tilt**2, min(method.initial_heading, pi) ** 2
+        if past.learned and "field" in past.learned:  # the first block's heading, too, is that of the local field now
+            heading -= method.local_field**2
+        apply(past.time, entry, past.table, time, corrections, Vec3(tilt, tilt, heading), method.declination)
         past.quat[:] = arrays.continuous(past.quat)
