@@ -73,7 +73,6 @@ def back_through_block(future: Floats, P: Floats, at: int) -> None:
             future[i, SCALE + k] += P[at + ADDED, k] * e.x + P[at + ADDED + 1, k] * e.y + P[at + ADDED + 2, k] * e.z
         future[i, TURN] += S_f.y * v.z - S_f.z * v.y
         future[i, TURN + 1] += S_f.z * v.x - S_f.x * v.z
-        future[i, TURN + 2] += S_f.x * v.y - S_f.y * v.x
         future[i, ACC_DELAY] += S_l.x * v.x + S_l.y * v.y + S_l.z * v.z
     for j in range(SIZE):  # every column of Λ: Fᵀ times
         ex, ey, ez = future[TURN, j], future[TURN + 1, j], future[TURN + 2, j]
@@ -85,7 +84,6 @@ def back_through_block(future: Floats, P: Floats, at: int) -> None:
             future[SCALE + k, j] += P[at + ADDED, k] * ex + P[at + ADDED + 1, k] * ey + P[at + ADDED + 2, k] * ez
         future[TURN, j] += S_f.y * vz - S_f.z * vy
         future[TURN + 1, j] += S_f.z * vx - S_f.x * vz
-        future[TURN + 2, j] += S_f.x * vy - S_f.y * vx
         future[ACC_DELAY, j] += S_l.x * vx + S_l.y * vy + S_l.z * vz
 
 

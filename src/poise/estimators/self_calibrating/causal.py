@@ -79,7 +79,7 @@ class SelfCalibrating(NamedTuple):
     block: Annotated[float, "s", "time between two corrections", (1e-3, 1.0)] = 0.08
     gyr_noise: Annotated[float, "rad/s/√Hz", "gyroscope white noise σ_g", (0.0, 10.0)] = 1e-4
     scale_noise: Annotated[float, "√s", "k: noise per rate, of what A does not explain", (0.0, 10.0)] = 1e-4
-    bias_walk: Annotated[float, "rad/s/√s", "random walk of the bias in motion", (0.0, 10.0)] = 2e-4
+    bias_walk: Annotated[float, "rad/s/√s", "random walk of the bias in motion", (0.0, 10.0)] = 1.4e-4
     bias_walk_rest: Annotated[float, "rad/s/√s", "random walk of the bias at rest", (0.0, 10.0)] = 2e-6
     acc_noise: Annotated[float, "m/s²/√Hz", "accelerometer noise σ_v", (1e-9, 1e3)] = 0.01
     motion_noise: Annotated[float, "√s", "κ: noise per specific force beyond gravity", (0.0, 1e3)] = 0.01
@@ -103,7 +103,7 @@ class SelfCalibrating(NamedTuple):
     initial_tilt: Annotated[float, "rad", "σ of pitch and roll at the start", (1e-6, 10.0)] = radians(5.4)
     initial_heading: Annotated[float, "rad", "σ of the heading at the start", (1e-6, 10.0)] = radians(60.0)
     initial_bias: Annotated[float, "rad/s", "σ of the gyroscope's bias at the start", (1e-9, 10.0)] = radians(1.0)
-    initial_scale: Annotated[float, "1", "σ of each element of A at the start", (0.0, 1.0)] = 0.0035
+    initial_scale: Annotated[float, "1", "σ of each element of A at the start", (0.0, 1.0)] = 0.003
     initial_iron: Annotated[float, "1", "σ of the hard iron at the start, in lengths of the field", (0.0, 10.0)] = 1e-3
     mag_delay: Annotated[float, "s", "expected delay of the magnetometer behind the gyroscope", (-1.0, 1.0)] = 0.008
     mag_delay_sigma: Annotated[float, "s", "σ of that delay", (0.0, 1.0)] = 0.008
@@ -297,7 +297,8 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     """The state after the end of a block: 4. covariance, 5. rest, 6. pseudo-velocity, 7. magnetometer, 8. inject."""
     P = state.P
     T, rate_square = s.time, s.rate_square / s.samples
-    rest = state.still >= method.rest_time
+    still = (1.0 / s.samples) * s.gyr - state.bias
+    rest = state.still >= method.rest_time and likely_bias(method, P, still)
 
     # 4. Covariance
     walk = method.bias_walk_rest if rest else method.bias_walk
@@ -320,7 +321,6 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
 
     # 5. At rest the mean rate is the bias, 6. the pseudo-velocity is near 0
     if rest:
-        still = (1.0 / s.samples) * s.gyr - state.bias
         variance = method.rest_noise**2 * method.block / T
         correct_one(P, BIAS, still.x, variance)
         correct_one(P, BIAS + 1, still.y, variance)
@@ -364,6 +364,15 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     q = normalize(exp(vector(P, X, TURN)) * q)
     bias = state.bias + vector(P, X, BIAS)
     return State(q, bias, state.rate, state.mean_gyr, state.mean_acc, state.still, True, P)
+
+
+@compiled
+def likely_bias(method: SelfCalibrating, P: Floats, off: Vec3) -> bool:
+    """Whether a mean rate this far from the bias can be the bias itself: a slow, even turn is not."""
+    most = 36.0  # six sigma, squared
+    own = method.rest_noise**2
+    x, y, z = float(P[BIAS, BIAS]) + own, float(P[BIAS + 1, BIAS + 1]) + own, float(P[BIAS + 2, BIAS + 2]) + own
+    return off.x * off.x < most * x and off.y * off.y < most * y and off.z * off.z < most * z
 
 
 @compiled

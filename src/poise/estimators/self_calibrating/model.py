@@ -85,15 +85,16 @@ def grow(P: Floats, sums: Sums, noise: Noise) -> None:
     """P ← F P Fᵀ + Q over a block, in place (eq. 9, 10).
 
     Only the rows of ε and v of F differ from the identity: ε⁺ = ε − S_R δb + S_A δA and
-    v⁺ = v − [S_f]× ε + S_l δτ_a.
+    v⁺ = v − [S_f]× ε + S_l δτ_a. Of [S_f]× the column of the heading is left out: the pseudo-velocity is near 0 in every
+    direction, so that a horizontal acceleration says nothing of the heading, whatever v is expected to be.
     """
     S_R = sums.rotation
     fx, fy, fz = sums.force
     lx, ly, lz = sums.force_late
     for j in range(SIZE):  # rows of v first: they take the old ε
-        x, y, z, late = P[TURN, j], P[TURN + 1, j], P[TURN + 2, j], P[ACC_DELAY, j]
-        P[VELOCITY, j] += fz * y - fy * z + lx * late
-        P[VELOCITY + 1, j] += fx * z - fz * x + ly * late
+        x, y, late = P[TURN, j], P[TURN + 1, j], P[ACC_DELAY, j]
+        P[VELOCITY, j] += fz * y + lx * late
+        P[VELOCITY + 1, j] += ly * late - fz * x
         P[VELOCITY + 2, j] += fy * x - fx * y + lz * late
     for i in range(3):
         row = S_R.x if i == 0 else (S_R.y if i == 1 else S_R.z)
@@ -111,8 +112,8 @@ def grow(P: Floats, sums: Sums, noise: Noise) -> None:
                 P[i, VELOCITY + k] = P[VELOCITY + k, i]
         else:
             x, y, z, late = P[i, TURN], P[i, TURN + 1], P[i, TURN + 2], P[i, ACC_DELAY]
-            P[i, VELOCITY] += fz * y - fy * z + lx * late
-            P[i, VELOCITY + 1] += fx * z - fz * x + ly * late
+            P[i, VELOCITY] += fz * y + lx * late
+            P[i, VELOCITY + 1] += ly * late - fz * x
             P[i, VELOCITY + 2] += fy * x - fx * y + lz * late
             bx, by, bz = P[i, BIAS], P[i, BIAS + 1], P[i, BIAS + 2]
             x -= S_R.x.x * bx + S_R.x.y * by + S_R.x.z * bz

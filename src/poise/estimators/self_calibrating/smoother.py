@@ -51,7 +51,7 @@ def smooth(
     if not (window > 0.0 and overlap >= 0.0):
         raise MethodError(f"window and overlap: expected seconds, found {window!r} and {overlap!r}")
     room = _PART + 2
-    stream = Stream(method._replace(log=room, iron_walk=0.0), start, bias=bias, guard=guard)
+    stream = Stream(method._replace(log=room), start, bias=bias, guard=guard)
     log: list[Floats] = []
     past = feed(stream, recording, _PART, after=lambda: log.append(_taken(stream)), progress=progress)
     entry = _unwrapped(past.flags >> _INDEX)
