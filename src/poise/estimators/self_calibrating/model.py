@@ -84,8 +84,8 @@ class Noise(NamedTuple):
 def grow(P: Floats, sums: Sums, noise: Noise) -> None:
     """P ← F P Fᵀ + Q over a block, in place (eq. 9, 10).
 
-    Only the rows of ε and v of F differ from the identity: ε⁺ = ε − S_R δb + S_A δA and
-    v⁺ = v − [S_f]× ε + S_l δτ_a.
+    Only the rows of ε and v of F differ from the identity: ε⁺ = ε − S_R δb + S_A δA (eq. 7) and
+    v⁺ = v − [S_f]× ε + S_l δτ_a (eq. 8).
     """
     S_R = sums.rotation
     fx, fy, fz = sums.force
