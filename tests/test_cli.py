@@ -66,9 +66,9 @@ def test_estimate_writes_the_attitude_beside_its_facts(folder: Path, capsys: pyt
     assert "made.attitude.parquet" in out
     assert (folder / "made.png").read_bytes().startswith(b"\x89PNG")
     attitude = read_attitude(folder / "made.attitude.parquet")
-    expected = poise.estimate(poise.TwoStage(), poise.read("made.csv"))
+    expected = poise.estimate(poise.SelfCalibrating(), poise.read("made.csv"))
     np.testing.assert_array_equal(attitude.quat, expected.quat)
-    assert attitude.provenance.method == "TwoStage"
+    assert attitude.provenance.method == "SelfCalibrating"
     assert attitude.provenance.source_hash
 
 
