@@ -293,7 +293,7 @@ def clipped_columns(R: Mat3, gyr: Vec3, limit: float) -> Mat3:
 
 @compiled
 def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> State:
-    """The state after the end of a block (eq. 7 to 15): 4. covariance, 5. rest, 6. pseudo-velocity, 7. magnetometer, 8. inject."""
+    """The state after the end of a block : 4. covariance, 5. rest, 6. pseudo-velocity, 7. magnetometer, 8. inject."""
     P = state.P
     T, rate_square = s.time, s.rate_square / s.samples
     rest = state.still >= method.rest_time

@@ -43,7 +43,8 @@ def smooth(
     """The attitude of every row of *recording*, from all of it: before the row and after (``SelfCalibrating`` only).
 
     The way back starts *overlap* seconds behind each *window* of them; it needs about 80 kB of memory for a second of
-    recording, at the default length of a block. Other arguments as for :func:`estimate`. Raises :class:`MethodError` for another method, and what :func:`estimate` raises.
+    recording, at the default length of a block. Other arguments as for :func:`estimate`.
+    Raises :class:`MethodError` for another method, and what :func:`estimate` raises.
     """
     method = SelfCalibrating() if method is None else method
     if not isinstance(method, SelfCalibrating):
