@@ -181,7 +181,8 @@ def test_a_restart_keeps_what_was_learned() -> None:
     assert clean.truth is not None
     gap = replace(clean, time=time, truth=replace(clean.truth, time=time))
     attitude = poise.estimate(FLAGSHIP, gap)
-    assert np.degrees(poise.evaluate(attitude, gap).total[at + 1000 :]).max() < 2.0
+    back_again = np.degrees(poise.evaluate(attitude, gap).total[at + 1000 :])
+    assert back_again.max() < 3.0
 
 
 # -- offline ----------------------------------------------------------------------------------------------------------

@@ -59,7 +59,6 @@ from poise.math.quaternions import Quat, attitude_of, conjugate, exp, normalize,
 from poise.math.vectors import UP, ZERO, Vec3, cross, dot, norm, present, unit, within
 
 _FIRST_SPREAD = 1e-4  # (share of the field)², before any has been measured
-_FAR = radians(30.0)  # a heading further from the magnetometer's is beyond what a linear correction can do
 
 
 class State(NamedTuple):
@@ -104,7 +103,7 @@ class SelfCalibrating(NamedTuple):
     initial_heading: Annotated[float, "rad", "σ of the heading at the start", (1e-6, 10.0)] = radians(60.0)
     initial_bias: Annotated[float, "rad/s", "σ of the gyroscope's bias at the start", (1e-9, 10.0)] = radians(1.0)
     initial_scale: Annotated[float, "1", "σ of each element of A at the start", (0.0, 1.0)] = 0.003
-    initial_iron: Annotated[float, "1", "σ of the hard iron at the start, in lengths of the field", (0.0, 10.0)] = 1e-3
+    initial_iron: Annotated[float, "1", "σ of the hard iron at the start, in lengths of the field", (0.0, 10.0)] = 3e-3
     mag_delay: Annotated[float, "s", "expected delay of the magnetometer behind the gyroscope", (-1.0, 1.0)] = 0.008
     mag_delay_sigma: Annotated[float, "s", "σ of that delay", (0.0, 1.0)] = 0.008
     acc_delay_sigma: Annotated[
@@ -150,6 +149,7 @@ class SelfCalibrating(NamedTuple):
         """Attitude from acc and mag anew; what was learned of the sensors, the bias too, stays."""
         P = state.P
         unsure_attitude(self, P)
+        forget(P, TURN, 2, (4.0 * self.initial_tilt) ** 2)  # it may well be in motion
         enter_block(P, NOTHING, True)
         begin_block(P)
         put(P, SENSOR, 9, ZERO)
@@ -247,8 +247,9 @@ class SelfCalibrating(NamedTuple):
         }
         if known.length > 0.0:
             length = known.length
-            found["field"] = _learned(length * np.array(known.field[1:]), length * sigma[FIELD : FIELD + 2], "µT")
-            found["hard_iron"] = _learned(length * np.array(known.iron), length * sigma[IRON : IRON + 3], "µT")
+            unit = "of the magnetometer"  # whatever that is: only directions counted
+            found["field"] = _learned(length * np.array(known.field[1:]), length * sigma[FIELD : FIELD + 2], unit)
+            found["hard_iron"] = _learned(length * np.array(known.iron), length * sigma[IRON : IRON + 3], unit)
             found["mag_delay"] = _learned(known.mag_delay, sigma[MAG_DELAY], "s")
         return found
 
@@ -294,11 +295,11 @@ def clipped_columns(R: Mat3, gyr: Vec3, limit: float) -> Mat3:
 
 @compiled
 def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> State:
-    """The state after the end of a block: 4. covariance, 5. rest, 6. pseudo-velocity, 7. magnetometer, 8. inject."""
+    """The state after the end of a block : 4. covariance, 5. rest, 6. pseudo-velocity, 7. magnetometer, 8. inject."""
     P = state.P
     T, rate_square = s.time, s.rate_square / s.samples
     still = (1.0 / s.samples) * s.gyr - state.bias
-    rest = state.still >= method.rest_time and likely_bias(method, P, still)
+    rest = state.still >= method.rest_time
 
     # 4. Covariance
     walk = method.bias_walk_rest if rest else method.bias_walk
@@ -320,7 +321,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         P[X, j] = 0.0
 
     # 5. At rest the mean rate is the bias, 6. the pseudo-velocity is near 0
-    if rest:
+    if rest and likely_bias(method, P, still):
         variance = method.rest_noise**2 * method.block / T
         correct_one(P, BIAS, still.x, variance)
         correct_one(P, BIAS + 1, still.y, variance)
@@ -369,7 +370,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
 @compiled
 def likely_bias(method: SelfCalibrating, P: Floats, off: Vec3) -> bool:
     """Whether a mean rate this far from the bias can be the bias itself: a slow, even turn is not."""
-    most = 36.0  # six sigma, squared
+    most = 25.0  # five sigma, squared
     own = method.rest_noise**2
     x, y, z = float(P[BIAS, BIAS]) + own, float(P[BIAS + 1, BIAS + 1]) + own, float(P[BIAS + 2, BIAS + 2]) + own
     return off.x * off.x < most * x and off.y * off.y < most * y and off.z * off.z < most * z

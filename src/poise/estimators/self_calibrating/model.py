@@ -84,9 +84,9 @@ class Noise(NamedTuple):
 def grow(P: Floats, sums: Sums, noise: Noise) -> None:
     """P ← F P Fᵀ + Q over a block, in place (eq. 9, 10).
 
-    Only the rows of ε and v of F differ from the identity: ε⁺ = ε − S_R δb + S_A δA and
-    v⁺ = v − [S_f]× ε + S_l δτ_a. Of [S_f]× the column of the heading is left out: the pseudo-velocity is near 0 in every
-    direction, so that a horizontal acceleration says nothing of the heading, whatever v is expected to be.
+    Only the rows of ε and v of F differ from the identity: ε⁺ = ε − S_R δb + S_A δA (eq. 7) and
+    v⁺ = v − [S_f]× ε + S_l δτ_a (eq. 8). Of [S_f]× the column of the heading is left out: the pseudo-velocity is near 0 in
+    every direction, so that a horizontal acceleration says nothing of the heading.
     """
     S_R = sums.rotation
     fx, fy, fz = sums.force

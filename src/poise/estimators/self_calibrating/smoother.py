@@ -42,8 +42,9 @@ def smooth(
 ) -> Attitude:
     """The attitude of every row of *recording*, from all of it: before the row and after (``SelfCalibrating`` only).
 
-    Memory does not grow with the recording: the way back starts *overlap* seconds behind each *window* of them. Other
-    arguments as for :func:`estimate`. Raises :class:`MethodError` for another method, and what :func:`estimate` raises.
+    The way back starts *overlap* seconds behind each *window* of them; it needs about 80 kB of memory for a second of
+    recording, at the default length of a block. Other arguments as for :func:`estimate`.
+    Raises :class:`MethodError` for another method, and what :func:`estimate` raises.
     """
     method = SelfCalibrating() if method is None else method
     if not isinstance(method, SelfCalibrating):
