@@ -66,9 +66,9 @@ def test_estimate_writes_the_attitude_beside_its_facts(folder: Path, capsys: pyt
     assert "made.attitude.parquet" in out
     assert (folder / "made.png").read_bytes().startswith(b"\x89PNG")
     attitude = read_attitude(folder / "made.attitude.parquet")
-    expected = poise.estimate(poise.TwoStage(), poise.read("made.csv"))
+    expected = poise.estimate(poise.SelfCalibrating(), poise.read("made.csv"))
     np.testing.assert_array_equal(attitude.quat, expected.quat)
-    assert attitude.provenance.method == "TwoStage"
+    assert attitude.provenance.method == "SelfCalibrating"
     assert attitude.provenance.source_hash
 
 
@@ -97,7 +97,7 @@ def test_evaluate_against_the_file_and_beside_it(folder: Path, capsys: pytest.Ca
     assert run(["evaluate", "made.csv", "--json"]) == 0
     inside = json.loads(capsys.readouterr().out)["results"][0]["rmse_deg"]
     recording = poise.read("made.csv")
-    errors = poise.evaluate(poise.estimate(poise.TwoStage(), recording), recording)
+    errors = poise.evaluate(poise.estimate(poise.SelfCalibrating(), recording), recording)
     assert inside["total"] == pytest.approx(errors.rmse_deg().total)
     assert recording.truth is not None
     poise.write(recording.truth, folder / "truth.tum")
@@ -106,7 +106,7 @@ def test_evaluate_against_the_file_and_beside_it(folder: Path, capsys: pytest.Ca
     assert run(["evaluate", "est.parquet", "--reference", "truth.tum", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)["results"][0]
     beside = told["rmse_deg"]
-    assert told["method"] == "TwoStage"
+    assert told["method"] == "SelfCalibrating"
     assert told["compared"] + told["missing"] <= told["rows"]
     assert beside["heading"] == pytest.approx(inside["heading"], abs=0.3)
 
@@ -136,8 +136,8 @@ def test_sniff_says_what_it_is(folder: Path, capsys: pytest.CaptureFixture[str])
         (["estimate", "made.csv", "--nonsense"], "nonsense"),
         (["estimate", "made.csv", "-m", "kalman"], "two-stage, adaptive-gain"),
         (["estimate", "made.csv", "--set", "nope=1"], "NAME=VALUE"),
-        (["estimate", "made.csv", "--set", "mag_noise=-1"], "mag_noise"),
-        (["estimate", "made.csv", "--set", "mag_noise=much"], "expected a number"),
+        (["estimate", "made.csv", "--set", "gyr_noise=-1"], "gyr_noise: expected 0 to 10"),
+        (["estimate", "made.csv", "--set", "gyr_noise=much"], "expected a number"),
         (["estimate", "made.csv", "--place", "52.5,13.4"], "--date"),
         (["estimate", "made.csv", "--place", "Berlin", "--date", "2024-01-01"], "LAT,LON"),
         (["estimate", "made.csv", "--place", "52,13", "--date", "1999-01-01"], "2010 to 2029"),

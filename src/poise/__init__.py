@@ -26,6 +26,7 @@ _HOME = {
     "PoiseError": "poise.errors",
     "Recording": "poise.data.recording",
     "RestBias": "poise.estimators.rest_bias",
+    "SelfCalibrating": "poise.estimators.self_calibrating.causal",
     "Stream": "poise.estimators.engine",
     "Tilt": "poise.estimators.tilt",
     "TwoStage": "poise.estimators.two_stage",
@@ -34,6 +35,7 @@ _HOME = {
     "evaluate": "poise.evaluation",
     "read": "poise.formats",
     "read_attitude": "poise.formats",
+    "smooth": "poise.estimators.self_calibrating.smoother",
     "sniff": "poise.formats",
     "write": "poise.formats",
 }
@@ -56,6 +58,8 @@ if TYPE_CHECKING:
     from poise.estimators.gated import Gated as Gated
     from poise.estimators.guard import Guard as Guard
     from poise.estimators.rest_bias import RestBias as RestBias
+    from poise.estimators.self_calibrating.causal import SelfCalibrating as SelfCalibrating
+    from poise.estimators.self_calibrating.smoother import smooth as smooth
     from poise.estimators.tilt import Tilt as Tilt
     from poise.estimators.two_stage import TwoStage as TwoStage
     from poise.evaluation import Errors as Errors

@@ -30,6 +30,7 @@ def estimate(
     format: _Format | None = None,
     plot: Path | None = None,
     frame: Literal["enu", "ned", "nwu"] = "enu",
+    learned: Annotated[bool, Parameter(negative="")] = False,
     json: Annotated[bool, Parameter(negative="")] = False,
     reading: Reading | None = None,
     running: Running | None = None,
@@ -57,6 +58,8 @@ def estimate(
         A picture of the attitude (.png, .svg, .pdf); a folder for several FILEs.
     frame
         The Earth frame to write: east-north-up, north-east-down or north-west-up.
+    learned
+        Print what the method found out about the sensors: bias, scale, hard iron, delays (self-calibrating only).
     json
         Print the summary as JSON.
     """
@@ -86,6 +89,8 @@ def estimate(
         show.as_json({"method": running.method, "results": results, "errors": refused})
     elif results:
         _report(results, running.method)
+        if learned:
+            _report_learned(results, running.method)
     return 1 if refused else 0
 
 
@@ -123,6 +128,7 @@ def _finished(
         "heading": attitude.heading_reference,
         "frame": attitude.frame,
         "error_deg": errors.rmse_deg()._asdict() if errors else None,
+        "learned": attitude.learned,
         "notes": list(recording.notes),
     }
 
@@ -155,6 +161,25 @@ def _report(results: list[dict[str, Any]], method: str) -> None:
             show.note(f"{Path(result['file']).name}: {text}")
         if result["plot"]:
             show.note(f"{Path(result['file']).name}: picture in {result['plot']}")
+
+
+def _report_learned(results: list[dict[str, Any]], method: str) -> None:
+    for result in results:
+        name = Path(result["file"]).name
+        if result["learned"] is None:
+            show.note(f"{name}: {method} learns nothing about the sensors that it could tell; take self-calibrating")
+            continue
+        rows = [
+            [what, _numbers(found["value"]), _numbers(found["sigma"]), found["unit"]]
+            for what, found in result["learned"].items()
+        ]
+        show.table(f"{name}: learned", ["", "value", "sigma", "unit"], rows)
+
+
+def _numbers(values: Any) -> str:
+    if isinstance(values, list):
+        return ("; " if values and isinstance(values[0], list) else " ").join(map(_numbers, values))
+    return f"{values:.4g}"
 
 
 def _ending(output: Path | None, format: _Format | None) -> str:

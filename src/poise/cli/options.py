@@ -102,7 +102,7 @@ class Reading:
 class Running:
     """Which method, with which parameters, and where north is."""
 
-    method: Annotated[str, Parameter(name=["--method", "-m"])] = "two-stage"
+    method: Annotated[str, Parameter(name=["--method", "-m"])] = "self-calibrating"
     """One of those that `poise methods` lists."""
 
     set_: Annotated[tuple[str, ...], Parameter(name="--set", negative="")] = ()
@@ -118,7 +118,10 @@ class Running:
     """The day of the recording, `YYYY-MM-DD`, for --place."""
 
     rest_bias: bool = True
-    """Measure the gyroscope's bias whenever the sensor rests."""
+    """Measure the gyroscope's bias whenever the sensor rests, for a method that does not learn it itself."""
+
+    offline: Annotated[bool, Parameter(negative="")] = False
+    """Use the whole recording for every row, what comes after it too (self-calibrating only)."""
 
     def build(self) -> Any:
         """The method with its parameters; :class:`UsageError` where they cannot be."""
@@ -140,6 +143,8 @@ class Running:
             if "declination" not in kinds:
                 usage(f"{self.method} has no heading from a magnetometer, so a declination means nothing to it")
             chosen["declination"] = angle
+        if self.offline and self.method != "self-calibrating":
+            usage(f"--offline goes with --method self-calibrating, not with {self.method}")
         try:
             method = cls(**chosen)
             prepared(method)
@@ -155,7 +160,12 @@ class Running:
     ) -> Attitude:
         from poise.estimators.engine import estimate
 
-        attitude = estimate(self.build(), recording, start, rest_bias=self.rest_bias, progress=progress)
+        if self.offline:
+            from poise.estimators.self_calibrating.smoother import smooth
+
+            attitude = smooth(recording, self.build(), start, progress=progress)
+        else:
+            attitude = estimate(self.build(), recording, start, rest_bias=self.rest_bias, progress=progress)
         told = self.declination is not None or self.place is not None
         if told and attitude.heading_reference == "magnetic":  # a declination of zero is a declination
             attitude = replace(attitude, heading_reference="true")

@@ -79,6 +79,8 @@ class Attitude:
     frame: Frame = "enu"
     """the frame that the quaternion turns body vectors into"""
     provenance: Provenance = Provenance()
+    learned: Mapping[str, Any] | None = None
+    """what the method found out about the sensors by the last row, for one that does: name → value, sigma, unit"""
 
     @classmethod
     def of(

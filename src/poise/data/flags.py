@@ -25,6 +25,8 @@ class Flag(IntFlag):
     CORRECTION_FORCED = 1 << 11
     HEADING_ARBITRARY = 1 << 12
     START_IN_MOTION = 1 << 13
+    MAG_DISTURBED = 1 << 14
+    GYR_CLIPPED = 1 << 15
 
 
 SENTENCES: dict[Flag, str] = {
@@ -41,6 +43,8 @@ SENTENCES: dict[Flag, str] = {
     Flag.ACC_DOUBTED: "specific force far from gravity: the accelerometer counts less",
     Flag.HEADING_ARBITRARY: "no magnetometer sample since the start: the heading counts from where it started",
     Flag.START_IN_MOTION: "started in motion: the angles of one sample, which may be far off",
+    Flag.MAG_DISTURBED: "the field here differs from what was learned of it: the magnetometer counts less",
+    Flag.GYR_CLIPPED: "the rate is at the end of the gyroscope's range: the turn is larger than measured",
     Flag.CORRECTION_FORCED: "the correction stood out from its history: the preset gain was forced",
 }
 
@@ -62,6 +66,8 @@ ACC_DOUBTED = int(Flag.ACC_DOUBTED)
 CORRECTION_FORCED = int(Flag.CORRECTION_FORCED)
 HEADING_ARBITRARY = int(Flag.HEADING_ARBITRARY)
 START_IN_MOTION = int(Flag.START_IN_MOTION)
+MAG_DISTURBED = int(Flag.MAG_DISTURBED)
+GYR_CLIPPED = int(Flag.GYR_CLIPPED)
 
 
 def valid(flags: NDArray[np.uint32]) -> NDArray[np.bool_]:

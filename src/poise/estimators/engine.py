@@ -191,6 +191,22 @@ class Stream:
         """A snapshot of the method's state, wrappers included; None before the first sample."""
         return None if self._memory is None else copied(state_of(self._memory))
 
+    @property
+    def learned(self) -> dict[str, Any] | None:
+        """What the method has found out about the sensors so far, where it does: name → value, sigma and unit."""
+        core, state = _core(self._running), self.running_state
+        if state is None or not hasattr(core, "learned"):
+            return None
+        while hasattr(state, "inner"):
+            state = state.inner
+        found: dict[str, Any] = core.learned(state)
+        return found
+
+    @property
+    def running_state(self) -> Any:
+        """The method's state itself, where it holds arrays, not a snapshot; None before the first sample."""
+        return None if self._memory is None else state_of(self._memory)
+
     def save(self) -> bytes:
         """Everything needed to go on in another process: JSON text with a checksum, no pickle. See :meth:`restore`."""
         latest = self._latest
@@ -298,20 +314,34 @@ def estimate(
             f"expected a Recording, found {type(recording).__name__}; see poise.read and poise.Recording"
         )
     stream = Stream(_at_gravity(method, recording.gravity), start, bias=bias, guard=guard, rest_bias=rest_bias)
+    return feed(stream, recording, _BLOCK, progress=progress)
+
+
+def feed(
+    stream: Stream,
+    recording: Recording,
+    block: int,
+    *,
+    after: Callable[[], None] | None = None,
+    progress: Callable[[int], None] | None = None,
+) -> Attitude:
+    """What a fresh *stream* says about *recording*, *block* rows at a time; *after* is called behind each block."""
     n = len(recording)
     table, flags = np.empty((n, COLUMNS)), np.empty(n, np.uint32)
     columns = tuple(np.ascontiguousarray(getattr(recording, name)) for name in ROW_COLUMNS)
-    buffer = np.empty((min(_BLOCK, n), WIDTH))
-    for first in range(0, n, _BLOCK):
-        part = slice(first, min(first + _BLOCK, n))
+    buffer = np.empty((min(block, n), WIDTH))
+    for first in range(0, n, block):
+        part = slice(first, min(first + block, n))
         rows = buffer[: part.stop - first]
         pack(rows, *(column[part] for column in columns))
         stream._see_mag(rows)
         stream._advance_into(rows, table[part], flags[part])
+        if after is not None:
+            after()
         if progress is not None:
             progress(part.stop)
     provenance = replace(stream._provenance, source=recording.source, source_hash=recording.source_hash)
-    return Attitude(recording.time.copy(), table, flags, stream._heading, "enu", provenance)
+    return Attitude(recording.time.copy(), table, flags, stream._heading, "enu", provenance, stream.learned)
 
 
 def _revived(method: Any, start: Any, bias: Any, guard: bool, rest_bias: bool, silence: float, saved: bytes) -> Stream:

@@ -17,7 +17,7 @@ from poise.data.flags import (
     TIME_DISORDER,
 )
 from poise.data.packet import Output, Sample
-from poise.estimators.protocol import output, resting_sample, start, step, with_sensors
+from poise.estimators.protocol import output, restart, resting_sample, start, step, with_sensors
 from poise.math.compiled import compiled
 from poise.math.quaternions import IDENTITY, Quat, rotate, shortest_turn, up_in_body
 from poise.math.vectors import ABSENT, UP, Vec3, dot, norm, present, unit, within
@@ -138,7 +138,9 @@ class Guard(NamedTuple):
         if state.started:
             flags |= RESET
             sample = _restart(self, before.attitude, sample, lost)
-        inner = start(self.method, sample, before.bias)
+            inner = restart(self.method, state.inner, sample, before.bias)
+        else:
+            inner = start(self.method, sample, before.bias)
         kept = state.aligned and (not state.mag_seen or not self.follows_mag)
         aligned = kept if state.started and not self.follows_mag else has_mag or (state.started and kept)
         flags |= 0 if aligned else HEADING_ARBITRARY

@@ -2,6 +2,7 @@
 
     start(self, sample, bias) -> State             a State has at least `attitude` (Quat, body to Earth) and `bias` (Vec3)
     step(self, state, sample) -> State
+    restart(self, state, sample, bias) -> State    after a loss; default: start(sample, bias)
     output(self, state, sample) -> Output          default: the state's attitude, gyr − bias, no sigmas, no flags
 
 A method with a `declination` field has a heading from the magnetometer; one with ``learns_bias = True`` estimates the
@@ -26,6 +27,13 @@ def _plain_output(method: Any, state: Any, sample: Sample) -> Output:
 start = dispatched("start")
 step = dispatched("step")
 output = dispatched("output", default=_plain_output)
+
+
+def _plain_restart(thing: Any, state: Any, sample: Sample, bias: Vec3) -> Any:
+    return start(thing, sample, bias)
+
+
+restart = dispatched("restart", default=_plain_restart)
 
 
 @compiled

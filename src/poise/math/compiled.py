@@ -159,7 +159,7 @@ def kernel_of(numba_type: Any, name: str) -> Any:
     method = getattr(getattr(numba_type, "instance_class", None), name, None)
     if not inspect.isfunction(method):
         return None
-    options = _OPTIONS | {"forceinline": name != "start", "no_cpython_wrapper": True}
+    options = _OPTIONS | {"forceinline": name not in ("start", "restart"), "no_cpython_wrapper": True}
     return numba.njit(method, **options)
 
 

@@ -1,0 +1,388 @@
+"""What the flagship does on the trials, what each of its parts is worth and where it ends: the figures on its page.
+
+    python benchmarks/ablation.py [SECTION...]     all of them by default
+
+trials        causal and offline on every trial, beside vqf
+without       one part left out at a time
+sensitivity   each parameter halved and doubled alone
+late          the first seconds cut off, so that the start is nearer to motion or in it
+rates         block means of 3 and 6 samples
+six           without magnetometer: inclination, and drift of the heading from the first row in motion
+sigma         how sigma covers the errors about the Earth's axes, by what the sensor does
+start         from an attitude 60° wrong in heading and 20° in tilt
+magnet        a magnet attached in the middle of a recording
+field         where the local field points, seen from the reference, and the heading's constant error
+instant       the attitude given out some milliseconds later or earlier
+tried         the rate by trapezoids; windows of the way back; the length of a block
+made          made recordings of an inexpensive sensor, and of one with white noise only
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+import poise
+from accuracy import trial_files
+from poise.data.flags import MAG_DISTURBED, REST
+from poise.data.packet import Packet
+from poise.data.recording import Recording
+from poise.estimators.parameters import parameters
+from poise.estimators.self_calibrating.model import ACC_DELAY, SENSOR, forget
+from poise.math import arrays
+from poise.peers import PEERS
+from poise.simulation import Sensor, Triad, forearm, measure, phone, robot
+from regimes import Table, Trials
+from scores import halves
+from studies import block_means
+from tables import Cell, table
+
+Floats = NDArray[np.float64]
+Run = Callable[[Recording], poise.Attitude]
+FLAGSHIP = poise.SelfCalibrating()
+PLACE = ("log", "lead", "gravity", "declination", "gyr_range")  # what is no matter of tuning
+ONLY_SIGMA = ("local_field", "level_error", "time_error")  # no attitude changes with them
+HALVES = ("all", "chosen", "held-out")
+
+
+def causal(method: Any = FLAGSHIP) -> Run:
+    return lambda recording: poise.estimate(method, recording)
+
+
+def offline(method: Any = FLAGSHIP) -> Run:
+    return lambda recording: poise.smooth(recording, method)
+
+
+def without_acc_delay(recording: Recording) -> poise.Attitude:
+    """The accelerometer's delay held at 0; half a sampling interval is its sigma whatever the parameters say."""
+    stream = poise.Stream(FLAGSHIP)
+    first = int(np.searchsorted(recording.time, recording.time[0] + 2.5 * FLAGSHIP.block))
+    parts = []
+    for rows in (slice(0, first), slice(first, None)):
+        r = recording[rows]
+        parts.append(stream.update(Packet(r.time, r.gyr, r.acc, r.mag)))
+        state = stream.running_state
+        while hasattr(state, "inner"):
+            state = state.inner
+        forget(state.P, ACC_DELAY, 1, 0.0)
+        state.P[SENSOR, 19] = 0.0
+    flags, whole = np.concatenate([part.flags for part in parts]), np.concatenate([part.table for part in parts])
+    return replace(parts[0], time=recording.time, table=whole, flags=flags)
+
+
+RUNS: dict[str, Run] = {
+    "causal": causal(),
+    "offline": offline(),
+    "vqf": PEERS["vqf"].attitude,
+    "vqf-offline": PEERS["vqf-offline"].attitude,
+}
+
+
+def errors(run: Run, trials: Trials) -> dict[str, Floats]:
+    """Total, heading and inclination RMSE of every trial, degrees."""
+    return {name: np.array(poise.evaluate(run(r), r).rmse_deg()) for name, r in trials.items()}
+
+
+def mean(found: Mapping[str, Floats], half: str = "all") -> Floats:
+    return np.asarray(np.mean([found[name] for name in halves(found)[half]], axis=0))
+
+
+def slashed(values: Floats, digits: int = 3) -> str:
+    return "/".join(f"{v:.{digits}f}" for v in values)
+
+
+def per_trial(trials: Trials) -> Iterator[Table]:
+    found = {name: errors(run, trials) for name, run in RUNS.items()}
+    rows: list[list[Cell]] = [[trial, *(slashed(e[trial], 2) for e in found.values())] for trial in trials]
+    rows += [[f"mean, {half}", *(slashed(mean(e, half)) for e in found.values())] for half in HALVES]
+    yield "total/heading/inclination RMSE, degrees", ["", *RUNS], rows
+
+
+def without(trials: Trials) -> Iterator[Table]:
+    left_out: dict[str, dict[str, float]] = {
+        "all of it": {},
+        "magnetometer's delay at the expected 8 ms": {"mag_delay_sigma": 0.0},
+        "magnetometer's delay at 0": {"mag_delay_sigma": 0.0, "mag_delay": 0.0},
+        "A": {"initial_scale": 0.0},
+        "A, k 3 times larger": {"initial_scale": 0.0, "scale_noise": 3.0 * FLAGSHIP.scale_noise},
+        "the bias's walk in motion": {"bias_walk": FLAGSHIP.bias_walk_rest},
+        "hard iron": {"initial_iron": 0.0, "iron_walk": 0.0},
+        "hard iron's walk, but 1 % at the start": {"initial_iron": 0.01, "iron_walk": 0.0},
+        "noise by specific force": {"motion_noise": 0.0},
+        "noise by rate": {"scale_noise": 0.0},
+        "the field's walk": {"field_walk": 0.0},
+        "the magnetometer tilting while unsure": {"sure_tilt": 10.0},
+        "keeping the tilt from it when sure": {"sure_tilt": 0.0},
+    }
+    rows: list[list[Cell]] = []
+    for name, changed in left_out.items():
+        method = FLAGSHIP._replace(**changed)
+        a, b = errors(causal(method), trials), errors(offline(method), trials)
+        cells = [slashed(mean(a)), *(float(mean(a, half)[0]) for half in HALVES[1:])]
+        rows.append([name, *cells, slashed(mean(b)), *(float(mean(b, half)[0]) for half in HALVES[1:])])
+    a = errors(without_acc_delay, trials)
+    rows.insert(
+        1, ["accelerometer's delay", slashed(mean(a)), *(float(mean(a, h)[0]) for h in HALVES[1:]), *[None] * 3]
+    )
+    columns = ["without", "causal", "chosen", "held-out", "offline", "chosen", "held-out"]
+    yield "mean total/heading/inclination RMSE, and of the halves the total, degrees", columns, rows
+
+
+def sensitivity(trials: Trials) -> Iterator[Table]:
+    whole = float(mean(errors(causal(), trials))[0])
+    rows: list[list[Cell]] = []
+    for parameter in parameters(type(FLAGSHIP)):
+        if parameter.kind is float and parameter.name not in PLACE + ONLY_SIGMA:
+            changes = []
+            for factor in (0.5, 2.0):
+                method = FLAGSHIP._replace(**{parameter.name: factor * getattr(FLAGSHIP, parameter.name)})
+                changes.append(100.0 * (float(mean(errors(causal(method), trials))[0]) / whole - 1.0))
+            rows.append([parameter.name, *(f"{change:+.1f}" for change in changes)])
+    yield f"causal, {whole:.3f}°: change of the mean total RMSE, %", ["", "halved", "doubled"], rows
+
+
+def late(trials: Trials) -> Iterator[Table]:
+    rows: list[list[Cell]] = []
+    for seconds in (0.0, 1.0, 2.5, 5.0, 7.5, 10.0):
+        cut = {name: r[int(np.searchsorted(r.time, r.time[0] + seconds)) :] for name, r in trials.items()}
+        found = {name: errors(run, cut) for name, run in RUNS.items()}
+        rows.append([f"{seconds:g} s", *(slashed(mean(e)) for e in found.values())])
+    yield "the first seconds cut off: mean total/heading/inclination RMSE, degrees", ["", *RUNS], rows
+
+
+def rates(trials: Trials) -> Iterator[Table]:
+    rows: list[list[Cell]] = []
+    for samples in (1, 3, 6):
+        thinned = {name: block_means(r, samples) for name, r in trials.items()}
+        found = [errors(run, thinned) for run in (*RUNS.values(), without_acc_delay)]
+        rows.append([f"{285.7 / samples:.0f} Hz", *(slashed(mean(e)) for e in found)])
+    columns = ["", *RUNS, "causal, no accelerometer's delay"]
+    yield "block means: mean total/heading/inclination RMSE, degrees", columns, rows
+
+
+def six(trials: Trials) -> Iterator[Table]:
+    rows: list[list[Cell]] = []
+    for name, recording in trials.items():
+        row: list[Cell] = [name]
+        for run in RUNS.values():
+            attitude = run(replace(recording, mag=None))
+            e = poise.evaluate(attitude, recording)
+            assert recording.truth is not None
+            turn = arrays.multiply(attitude.quat, arrays.conjugate(recording.truth.quat))[e.counted]
+            drift = np.unwrap(2.0 * np.arctan2(turn[:, 3], turn[:, 0]))
+            row += [e.rmse_deg().inclination, float(np.degrees(np.sqrt(np.mean((drift - drift[0]) ** 2))))]
+        rows.append(row)
+    rows.append(["mean", *(float(np.mean([row[i] for row in rows])) for i in range(1, len(rows[0])))])  # type: ignore[arg-type]
+    columns = ["", *(f"{run}{what}" for run in RUNS for what in (" incl.", ", drift"))]
+    yield (
+        "without magnetometer: inclination RMSE and RMS drift of the heading from the first row in motion, degrees",
+        columns,
+        rows,
+    )
+
+
+def axis_errors(attitude: poise.Attitude, recording: Recording) -> Floats:
+    """(n, 3) rad about the Earth's axes; NaN without reference."""
+    assert recording.truth is not None
+    turn = arrays.multiply(recording.truth.quat, arrays.conjugate(attitude.quat))
+    found = np.full((len(turn), 3), np.nan)
+    known = np.isfinite(turn).all(axis=1)
+    found[known] = Rotation.from_quat(turn[known][:, [1, 2, 3, 0]]).as_rotvec()
+    return found
+
+
+def sigma(trials: Trials) -> Iterator[Table]:
+    for label, run in (("causal", causal()), ("offline", offline())):
+        ratios, kinds = [], []
+        for recording in trials.values():
+            attitude = run(recording)
+            ratios.append(np.abs(axis_errors(attitude, recording)) / attitude.sigma)
+            rest, fast = attitude.flags & REST != 0, np.linalg.norm(attitude.rate, axis=1) > 1.0
+            disturbed = attitude.flags & MAG_DISTURBED != 0
+            assert recording.moving is not None
+            kinds.append(np.column_stack([recording.moving, rest, ~rest & ~fast, ~rest & fast, disturbed]))
+        ratio, kind = np.concatenate(ratios), np.concatenate(kinds)
+        known = np.isfinite(ratio).all(axis=1)
+        rows: list[list[Cell]] = []
+        for i, name in enumerate(("in motion by the reference", "REST", "below 1 rad/s", "above", "MAG_DISTURBED")):
+            part = ratio[known & kind[:, i]]
+            inside, median = 100.0 * np.mean(part < 3.0, axis=0), np.median(part, axis=0)
+            rows.append([name, len(part), *inside.tolist(), *median.tolist()])
+        columns = ["", "rows", "within 3σ: east %", "north %", "up %", "median error/σ: east", "north", "up"]
+        yield f"{label}: sigma about the Earth's axes, all trials pooled", columns, rows
+
+
+def settled(attitude: poise.Attitude, e: Floats, limit: float) -> float | None:
+    """s until an error stays below *limit* degrees for 2 s; None where it never does."""
+    good = np.degrees(e) < limit
+    good[~np.isfinite(e)] = True
+    bad = np.flatnonzero(~good)
+    if not len(bad):
+        return 0.0
+    starts = np.concatenate([[0], bad + 1])
+    ends = np.concatenate([bad, [len(e)]])
+    time = attitude.time
+    for a, b in zip(starts, ends, strict=True):
+        if b > a and time[b - 1] - time[a] >= 2.0:
+            return float(time[a] - time[0])
+    return None
+
+
+def start(trials: Trials) -> Iterator[Table]:
+    rows: list[list[Cell]] = []
+    for name, recording in trials.items():
+        row: list[Cell] = [name]
+        assert recording.truth is not None and recording.moving is not None
+        known = np.isfinite(recording.truth.quat).all(axis=1)
+        for first in (np.argmax(known), np.argmax(known & recording.moving)):
+            r = recording[int(first) :]
+            assert r.truth is not None
+            wrong = Rotation.from_euler("ZX", [60.0, 20.0], degrees=True).as_quat()[[3, 0, 1, 2]]
+            attitude = poise.estimate(FLAGSHIP, r, start=arrays.multiply(wrong, r.truth.quat[0]))
+            e = poise.evaluate(attitude, r)
+            row += [settled(attitude, e.inclination, 2.0), settled(attitude, e.heading, 5.0)]
+            row.append(e.rmse_deg().total)
+        rows.append(row)
+    columns = [
+        "",
+        "at rest: incl. < 2°",
+        "heading < 5°",
+        "total RMSE",
+        "in motion: incl. < 2°",
+        "heading < 5°",
+        "total RMSE",
+    ]
+    yield (
+        "started 60° wrong in heading and 20° in tilt: s until right for 2 s, and total RMSE over all, degrees",
+        columns,
+        rows,
+    )
+
+
+def magnet(trials: Trials) -> Iterator[Table]:
+    undisturbed = {name: r for name, r in trials.items() if "undisturbed" in name}
+    rows: list[list[Cell]] = []
+    for length in (0.0, 5.0, 10.0, 20.0, 40.0):
+        found: dict[str, list[Floats]] = {name: [] for name in RUNS}
+        for recording in undisturbed.values():
+            after = recording.time >= recording.time[0] + 0.5 * recording.duration
+            for axis in range(3) if length else range(1):
+                assert recording.mag is not None and recording.moving is not None
+                attached = replace(recording, mag=recording.mag + length * np.outer(after, np.eye(3)[axis]))
+                judged = replace(recording, moving=recording.moving & after)
+                for name, run in RUNS.items():
+                    found[name].append(np.array(poise.evaluate(run(attached), judged).rmse_deg()))
+        means = {name: np.mean(e, axis=0) for name, e in found.items()}
+        worst = {name: max(float(v[0]) for v in e) for name, e in found.items()}
+        rows.append([f"{length:g} µT", *(f"{slashed(m, 2)}, {worst[name]:.1f}" for name, m in means.items())])
+    title = (
+        "a magnet on body x, y or z from the middle on, undisturbed trials: RMSE after it, degrees, and largest total"
+    )
+    yield title, ["", *RUNS], rows
+
+
+def field(trials: Trials) -> Iterator[Table]:
+    rows: list[list[Cell]] = []
+    for name, recording in trials.items():
+        assert recording.truth is not None and recording.mag is not None and recording.moving is not None
+        known = np.isfinite(recording.truth.quat).all(axis=1) & recording.moving
+        seen = arrays.rotate(recording.truth.quat[known], recording.mag[known])
+        n = round(20.0 * recording.rate_hz)
+        means = seen[: len(seen) // n * n].reshape(-1, n, 3).mean(axis=1)
+        off = np.degrees(np.arctan2(means[:, 0], means[:, 1]))
+        row: list[Cell] = [name, *np.percentile(off, [10, 50, 90]).tolist()]
+        for run in (causal(), offline()):
+            up = np.degrees(axis_errors(run(recording), recording)[known, 2])
+            row += [float(np.mean(up)), float(np.sqrt(np.mean((up - np.mean(up)) ** 2)))]
+        rows.append(row)
+    columns = ["", "field east of north: 10 %", "median", "90 %", "causal error about up: mean", "rms about it",
+               "offline: mean", "rms about it"]  # fmt: skip
+    yield "means of the field over 20 s in the reference's frame, degrees, and truth − attitude about up", columns, rows
+
+
+def instant(trials: Trials) -> Iterator[Table]:
+    rows: list[list[Cell]] = []
+    for lead in (-4e-3, -2e-3, 0.0, 2e-3, 4e-3, 6e-3):
+        found = errors(causal(FLAGSHIP._replace(lead=lead)), trials)
+        rows.append([f"{1e3 * lead:+g} ms", slashed(mean(found)), *(float(e[2]) for e in found.values())])
+    columns = ["lead", "mean", *(name[:2] for name in trials)]
+    yield "causal: mean total/heading/inclination RMSE, and inclination by trial, degrees", columns, rows
+
+
+def tried(trials: Trials) -> Iterator[Table]:
+    def trapezoids(r: Recording) -> Recording:
+        return replace(r, gyr=np.concatenate([r.gyr[:1], 0.5 * (r.gyr[:-1] + r.gyr[1:])]))
+
+    rows: list[list[Cell]] = []
+    for samples in (1, 3, 6):
+        thinned = {name: block_means(r, samples) for name, r in trials.items()}
+        by_trapezoid = {name: trapezoids(r) for name, r in thinned.items()}
+        cells = [slashed(mean(errors(causal(), t))) for t in (thinned, by_trapezoid)]
+        rows.append([f"{285.7 / samples:.0f} Hz", *cells])
+    yield "the rate by rectangles and by trapezoids: mean RMSE, degrees", ["", "rectangles", "trapezoids"], rows
+
+    rows = []
+    whole = {name: poise.smooth(r, window=1e9) for name, r in trials.items()}
+    for window, overlap in ((600.0, 200.0), (60.0, 200.0), (60.0, 120.0), (60.0, 60.0), (60.0, 30.0), (60.0, 0.0)):
+        apart, found = [], {}
+        for name, r in trials.items():
+            attitude = poise.smooth(r, window=window, overlap=overlap)
+            turn = arrays.multiply(attitude.quat, arrays.conjugate(whole[name].quat))
+            apart.append(float(np.degrees(np.nanmax(arrays.angle(turn)))))
+            found[name] = np.array(poise.evaluate(attitude, r).rmse_deg())
+        rows.append([f"{window:g} s, {overlap:g} s", max(apart), slashed(mean(found))])
+    yield "window and overlap of the way back", ["", "largest distance from one window, °", "mean RMSE, °"], rows
+
+    rows = []
+    for block in (0.02, 0.04, 0.08, 0.12, 0.16):
+        method = FLAGSHIP._replace(block=block)
+        rows.append(
+            [f"{1e3 * block:g} ms", *(slashed(mean(errors(r, trials))) for r in (causal(method), offline(method)))]
+        )
+    yield "length of a block: mean RMSE, degrees", ["", "causal", "offline"], rows
+
+
+TYPICAL = Sensor()
+NOISE = Sensor(gyr=Triad(TYPICAL.gyr.noise), acc=Triad(TYPICAL.acc.noise), mag=Triad(TYPICAL.mag.noise), mag_delay=0.0)
+
+
+def made(trials: Trials) -> Iterator[Table]:
+    del trials
+    iron = FLAGSHIP._replace(initial_iron=0.03)
+    runs = RUNS | {"causal, initial_iron 0.03": causal(iron), "offline, initial_iron 0.03": offline(iron)}
+    for label, sensor in (("an inexpensive sensor", TYPICAL), ("white noise only", NOISE)):
+        rows: list[list[Cell]] = []
+        for motion in (forearm, phone, robot):
+            found: dict[str, list[Floats]] = {name: [] for name in runs}
+            for seed in range(6):
+                recording = measure(motion(120.0, 100.0, seed), sensor, seed=seed)
+                for name, run in runs.items():
+                    found[name].append(np.array(poise.evaluate(run(recording), recording).rmse_deg()))
+            cells = [f"{slashed(np.mean(e, axis=0), 2)}, {max(float(v[0]) for v in e):.1f}" for e in found.values()]
+            rows.append([motion.__name__, *cells])
+        title = f"{label}, six made recordings of 120 s each: mean total/heading/inclination RMSE, degrees, and largest total"
+        yield title, ["", *runs], rows
+
+
+SECTIONS: dict[str, Callable[[Trials], Iterator[Table]]] = {
+    "trials": per_trial, "without": without, "sensitivity": sensitivity, "late": late, "rates": rates, "six": six,
+    "sigma": sigma, "start": start, "magnet": magnet, "field": field, "instant": instant, "tried": tried,
+    "made": made,
+}  # fmt: skip
+
+if __name__ == "__main__":
+    names = sys.argv[1:] or list(SECTIONS)
+    if unknown := [name for name in names if name not in SECTIONS]:
+        sys.exit(f"no section {unknown[0]!r}\n\n{__doc__}")
+    if not (files := trial_files()):
+        sys.exit("no BROAD trials here; POISE_DATA says where they are")
+    recordings = {file.stem: poise.read(file) for file in files}
+    for section in names:
+        for title, columns, rows in SECTIONS[section](recordings):
+            print(f"\n{title}\n{table(columns, rows, digits=2)}", flush=True)

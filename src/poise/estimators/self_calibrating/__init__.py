@@ -1,0 +1,1 @@
+"""SelfCalibrating: the flagship."""

@@ -1,0 +1,182 @@
+"""The way back over the blocks (Bierman 1977): what the future says, λ and Λ, so that the smoothed errors are −P λ and their
+covariance P − P Λ P. Equation numbers are those of ``docs/methods/self-calibrating.md``.
+"""
+
+from __future__ import annotations
+
+from math import pi, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from poise.estimators.self_calibrating.model import (
+    ACC_DELAY,
+    ADDED,
+    BIAS,
+    CORRECTIONS,
+    ENTRY,
+    INJECTED,
+    ONE,
+    SCALE,
+    SIZE,
+    TURN,
+    VELOCITY,
+    Floats,
+    three,
+    vector,
+)
+from poise.math.compiled import compiled, entry
+from poise.math.quaternions import Quat, exp
+from poise.math.vectors import UP, Vec3
+
+
+@compiled
+def back_through_correction(future: Floats, P: Floats, row: int) -> None:
+    """λ ← λ − h (r/S + kᵀλ), Λ ← h hᵀ/S + (I − h kᵀ) Λ (I − k hᵀ) with k = P h/S (eq. 20)."""
+    residual, per_S = float(P[row, ONE]), float(P[row + 1, ONE])
+    ahead, through = 0.0, 0.0  # kᵀ λ, kᵀ Λ k
+    for j in range(SIZE):
+        future[SIZE + 1, j] = 0.0
+        ahead += per_S * P[row + 1, j] * future[SIZE, j]
+    for i in range(SIZE):
+        weight = per_S * P[row + 1, i]
+        for j in range(SIZE):
+            future[SIZE + 1, j] += weight * future[i, j]
+    for j in range(SIZE):
+        through += per_S * P[row + 1, j] * future[SIZE + 1, j]
+    pull = residual * per_S + ahead
+    for i in range(SIZE):
+        h = float(P[row, i])
+        if h != 0.0:
+            future[SIZE, i] -= h * pull
+    for i in range(SIZE):
+        h, a = float(P[row, i]), float(future[SIZE + 1, i])
+        if h != 0.0:
+            weight = h * (per_S + through)
+            for j in range(SIZE):
+                future[i, j] += weight * P[row, j] - h * future[SIZE + 1, j]
+        for j in range(SIZE):
+            future[i, j] -= a * P[row, j]
+
+
+@compiled
+def back_through_block(future: Floats, P: Floats, at: int) -> None:
+    """λ ← Fᵀ λ, Λ ← Fᵀ Λ F (eq. 21), with F as in :func:`grow`."""
+    S_R, S_f, S_l = three(P, at + ADDED, 9), vector(P, at + ADDED + 1, 9), vector(P, at + ADDED + 2, 9)
+    for i in range(SIZE + 1):  # every row of Λ, and λ: times F
+        e = vector(future, i, TURN)
+        v = vector(future, i, VELOCITY)
+        future[i, BIAS] -= S_R.x.x * e.x + S_R.y.x * e.y + S_R.z.x * e.z
+        future[i, BIAS + 1] -= S_R.x.y * e.x + S_R.y.y * e.y + S_R.z.y * e.z
+        future[i, BIAS + 2] -= S_R.x.z * e.x + S_R.y.z * e.y + S_R.z.z * e.z
+        for k in range(9):
+            future[i, SCALE + k] += P[at + ADDED, k] * e.x + P[at + ADDED + 1, k] * e.y + P[at + ADDED + 2, k] * e.z
+        future[i, TURN] += S_f.y * v.z - S_f.z * v.y
+        future[i, TURN + 1] += S_f.z * v.x - S_f.x * v.z
+        future[i, ACC_DELAY] += S_l.x * v.x + S_l.y * v.y + S_l.z * v.z
+    for j in range(SIZE):  # every column of Λ: Fᵀ times
+        ex, ey, ez = future[TURN, j], future[TURN + 1, j], future[TURN + 2, j]
+        vx, vy, vz = future[VELOCITY, j], future[VELOCITY + 1, j], future[VELOCITY + 2, j]
+        future[BIAS, j] -= S_R.x.x * ex + S_R.y.x * ey + S_R.z.x * ez
+        future[BIAS + 1, j] -= S_R.x.y * ex + S_R.y.y * ey + S_R.z.y * ez
+        future[BIAS + 2, j] -= S_R.x.z * ex + S_R.y.z * ey + S_R.z.z * ez
+        for k in range(9):
+            future[SCALE + k, j] += P[at + ADDED, k] * ex + P[at + ADDED + 1, k] * ey + P[at + ADDED + 2, k] * ez
+        future[TURN, j] += S_f.y * vz - S_f.z * vy
+        future[TURN + 1, j] += S_f.z * vx - S_f.x * vz
+        future[ACC_DELAY, j] += S_l.x * vx + S_l.y * vy + S_l.z * vz
+
+
+@entry
+def back(log: Floats, future: Floats, corrections: Floats) -> None:
+    """From the last entry of *log* to the first: the corrections (n, 22) of ε and bias after each block, what was injected
+    there, their variances, whether the attitude was begun anew, ε's causal variances; *future* (27, 25) holds Λ, λ and room.
+    """
+    for n in range(len(corrections) - 1, -1, -1):
+        at = n * ENTRY
+        for i in range(6):
+            for j in range(SIZE):
+                future[SIZE + 1, j] = 0.0
+            for k in range(SIZE):
+                weight = log[at + i, k]
+                for j in range(SIZE):
+                    future[SIZE + 1, j] += weight * future[k, j]
+            correction, variance = 0.0, float(log[at + i, i])
+            for j in range(SIZE):
+                correction -= log[at + i, j] * future[SIZE, j]
+                variance -= log[at + i, j] * future[SIZE + 1, j]
+            corrections[n, i] = correction
+            corrections[n, 6 + i] = log[at + INJECTED, i]
+            corrections[n, 12 + i] = variance
+        corrections[n, 18] = log[at + 1, ONE]
+        for i in range(3):
+            corrections[n, 19 + i] = log[at + i, i]
+        if log[at + 1, ONE] != 0.0:  # attitude and velocity begun anew: the future says nothing of those before
+            for i in range(SIZE + 1):
+                for k in range(3):
+                    future[i, TURN + k] = 0.0
+                    future[i, VELOCITY + k] = 0.0
+                    if i < SIZE:
+                        future[TURN + k, i] = 0.0
+                        future[VELOCITY + k, i] = 0.0
+        else:
+            for m in range(int(log[at, ONE]) - 1, -1, -1):
+                back_through_correction(future, log, at + CORRECTIONS + 2 * m)
+            back_through_block(future, log, at)
+
+
+@entry
+def apply(
+    rows: Floats,
+    index: NDArray[np.int64],
+    table: Floats,
+    time: Floats,
+    corrections: Floats,
+    begun: Vec3,
+    declination: float,
+) -> None:
+    """The blocks' corrections on every row of *table* (n, 16): at *rows* (s), which stand behind *index* entries.
+
+    Between the ends of two blocks (at *time*) in proportion to time; the end's is of before its injection. *begun* are the
+    variances of ε (rad²) before the first end.
+    """
+    north = exp(-declination * UP)
+    south = exp(declination * UP)
+    n = len(corrections)
+    for r in range(len(rows)):
+        after = min(int(index[r]), n - 1)
+        before = max(int(index[r]) - 1, 0)
+        share = 0.0
+        if index[r] == 0:
+            share = 1.0
+        elif index[r] < n and corrections[after, 18] == 0.0 and time[after] > time[before]:
+            share = (rows[r] - time[before]) / (time[after] - time[before])
+            share = min(max(share, 0.0), 1.0) if share == share else 0.0
+        x = mixed(corrections, before, after, share, TURN)
+        turn = north * exp(x) * south if declination != 0.0 else exp(x)
+        q = turn * Quat(float(table[r, 0]), float(table[r, 1]), float(table[r, 2]), float(table[r, 3]))
+        table[r, 0], table[r, 1], table[r, 2], table[r, 3] = q.w, q.x, q.y, q.z
+        bias = mixed(corrections, before, after, share, BIAS)
+        for i in range(3):
+            change = bias.x if i == 0 else (bias.y if i == 1 else bias.z)
+            table[r, 4 + i] -= change
+            table[r, 7 + i] += change
+            # What is in the causal sigma beside P stays; P, there, is that of the last end, until the next.
+            first = begun.x if i == 0 else (begun.y if i == 1 else begun.z)
+            known = first if index[r] == 0 else corrections[before, 19 + i]
+            now = (1.0 - share) * corrections[before, 12 + i] + share * corrections[after, 12 + i]
+            table[r, 10 + i] = min(sqrt(max(table[r, 10 + i] ** 2 - known + now, 0.0)), pi)
+            table[r, 13 + i] = sqrt(
+                max((1.0 - share) * corrections[before, 15 + i] + share * corrections[after, 15 + i], 0.0)
+            )
+
+
+@compiled
+def mixed(corrections: Floats, before: int, after: int, share: float, at: int) -> Vec3:
+    """Three of the corrections between two ends."""
+    start, end, injected = (
+        vector(corrections, before, at),
+        vector(corrections, after, at),
+        vector(corrections, after, 6 + at),
+    )
+    return (1.0 - share) * start + share * (end + injected)

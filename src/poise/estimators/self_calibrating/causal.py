@@ -1,0 +1,432 @@
+"""SelfCalibrating: an error-state Kalman filter that learns its sensors while it runs.
+
+Source: our own, from published parts. Strapdown at every sample, covariance and corrections once per block (Savage 1998);
+gravity as a pseudo-velocity that stays near zero; gyroscope scale, misalignment and the magnetometer's delay and hard iron as
+states. Steps are numbered as in ``docs/methods/self-calibrating.md``, which derives them.
+
+Departures from the print: there is none; what was tried and left out stands on that page.
+"""
+
+from __future__ import annotations
+
+from math import atan2, cos, pi, radians, sqrt
+from typing import Annotated, Any, NamedTuple
+
+import numpy as np
+
+from poise.data.flags import GYR_CLIPPED, MAG_DISTURBED, REST
+from poise.data.packet import Output, Sample
+from poise.estimators.self_calibrating.model import (
+    ACC_DELAY,
+    BIAS,
+    COLUMNS,
+    ENTRY,
+    FIELD,
+    IRON,
+    MAG_DELAY,
+    NOTHING,
+    ROWS,
+    SCALE,
+    SENSOR,
+    SIZE,
+    TURN,
+    VELOCITY,
+    Floats,
+    H,
+    Noise,
+    Sensor,
+    Sums,
+    X,
+    add_turned,
+    begin_block,
+    correct,
+    correct_one,
+    enter_block,
+    forget,
+    grow,
+    put,
+    put_sensor,
+    put_sums,
+    sensor_of,
+    sums_of,
+    symmetrise,
+    three,
+    vector,
+)
+from poise.math.compiled import compiled
+from poise.math.matrices import Mat3, matrix, transpose
+from poise.math.quaternions import Quat, attitude_of, conjugate, exp, normalize, renormalized, rotate, shortest_turn
+from poise.math.vectors import UP, ZERO, Vec3, cross, dot, norm, present, unit, within
+
+_FIRST_SPREAD = 1e-4  # (share of the field)², before any has been measured
+
+
+class State(NamedTuple):
+    attitude: Quat  # body to Earth with magnetic north
+    bias: Vec3  # rad/s
+    rate: Vec3  # ω, rad/s
+    mean_gyr: Vec3  # what stillness is judged against
+    mean_acc: Vec3
+    still: float  # s
+    begun: bool  # a block has been closed
+    P: Floats  # (35, 28): the errors' covariance and, below it, the rest of the memory; see model.py
+
+
+class SelfCalibrating(NamedTuple):
+    """Our flagship: learns bias, scale, misalignment, hard iron and delays of its sensors, and says how sure it is."""
+
+    block: Annotated[float, "s", "time between two corrections", (1e-3, 1.0)] = 0.08
+    gyr_noise: Annotated[float, "rad/s/√Hz", "gyroscope white noise σ_g", (0.0, 10.0)] = 1e-4
+    scale_noise: Annotated[float, "√s", "k: noise per rate, of what A does not explain", (0.0, 10.0)] = 1e-4
+    bias_walk: Annotated[float, "rad/s/√s", "random walk of the bias in motion", (0.0, 10.0)] = 1.4e-4
+    bias_walk_rest: Annotated[float, "rad/s/√s", "random walk of the bias at rest", (0.0, 10.0)] = 2e-6
+    acc_noise: Annotated[float, "m/s²/√Hz", "accelerometer noise σ_v", (1e-9, 1e3)] = 0.01
+    motion_noise: Annotated[float, "√s", "κ: noise per specific force beyond gravity", (0.0, 1e3)] = 0.01
+    speed: Annotated[float, "m/s·√s", "how far the pseudo-velocity strays from 0, over one second", (1e-6, 1e6)] = 0.35
+    field_time: Annotated[float, "s", "how long an error of the field lasts", (1e-3, 1e6)] = 2.5
+    spread_time: Annotated[float, "s", "over which the field's errors are averaged", (1e-3, 1e6)] = 10.0
+    mag_rate_noise: Annotated[float, "s", "error of the field per rate of turn", (0.0, 10.0)] = 1e-3
+    field_walk: Annotated[float, "1/√s", "random walk of the field's north and up, in lengths of it", (0.0, 10.0)] = (
+        3e-5
+    )
+    iron_walk: Annotated[float, "1/√s", "random walk of the hard iron, in lengths of the field", (0.0, 10.0)] = 1e-3
+    local_field: Annotated[float, "rad", "how far magnetic north here may be from that of the region", (0.0, pi)] = (
+        radians(1.5)
+    )
+    level_error: Annotated[float, "rad", "how far the accelerometer's own up is off: its bias", (0.0, pi)] = radians(
+        0.25
+    )
+    time_error: Annotated[float, "s", "how far the attitude's instant is off: delays in the gyroscope", (0.0, 1.0)] = (
+        0.002
+    )
+    initial_tilt: Annotated[float, "rad", "σ of pitch and roll at the start", (1e-6, 10.0)] = radians(5.4)
+    initial_heading: Annotated[float, "rad", "σ of the heading at the start", (1e-6, 10.0)] = radians(60.0)
+    initial_bias: Annotated[float, "rad/s", "σ of the gyroscope's bias at the start", (1e-9, 10.0)] = radians(1.0)
+    initial_scale: Annotated[float, "1", "σ of each element of A at the start", (0.0, 1.0)] = 0.003
+    initial_iron: Annotated[float, "1", "σ of the hard iron at the start, in lengths of the field", (0.0, 10.0)] = 3e-3
+    mag_delay: Annotated[float, "s", "expected delay of the magnetometer behind the gyroscope", (-1.0, 1.0)] = 0.008
+    mag_delay_sigma: Annotated[float, "s", "σ of that delay", (0.0, 1.0)] = 0.008
+    acc_delay_sigma: Annotated[
+        float, "s", "σ of the accelerometer's delay, beside half a sampling interval", (0.0, 1.0)
+    ] = 0.001
+    rest_time: Annotated[float, "s", "how long the sensor must hold still before that counts as rest"] = 1.5
+    rest_gyr: Annotated[float, "rad/s", "largest mean rate, and distance from it, at rest, per axis"] = radians(2.0)
+    rest_acc: Annotated[float, "m/s²", "largest distance of a still specific force from its mean, per axis"] = 0.5
+    rest_noise: Annotated[float, "rad/s", "how far a block's mean rate at rest is from the bias", (1e-9, 10.0)] = 3e-4
+    rest_speed: Annotated[float, "m/s", "pseudo-velocity of a block at rest", (1e-9, 1e3)] = 0.01
+    sure_tilt: Annotated[
+        float, "rad", "the magnetometer corrects the tilt too while that is less sure", (0.0, 10.0)
+    ] = radians(2.0)
+    gyr_range: Annotated[float, "rad/s", "end of the gyroscope's range: rates from 98 % of it on are clipped"] = (
+        radians(2000.0)
+    )
+    log: Annotated[int, "blocks", "how many blocks are kept for a smoother", (0, 1e6)] = 0
+    lead: Annotated[float, "s", "the attitude given out is that of now + lead", (-1.0, 1.0)] = 0.0
+    gravity: Annotated[float, "m/s²", "length of gravity g", (0.1, 100.0)] = 9.80665
+    declination: Annotated[float, "rad", "true heading = magnetic heading + D, east positive", (-pi, pi)] = 0.0
+
+    @property
+    def learns_bias(self) -> bool:
+        """It does, in motion too: RestBias would take from it what it is to find."""
+        return True
+
+    def start(self, sample: Sample, bias: Vec3) -> State:
+        """1. Attitude of the first acc and mag; everything else at what is expected of a sensor."""
+        P = np.zeros((ROWS + ENTRY * self.log, COLUMNS))
+        forget(P, BIAS, 3, self.initial_bias**2)
+        forget(P, SCALE, 9, self.initial_scale**2)
+        forget(P, FIELD, 2, 0.25)
+        forget(P, IRON, 3, self.initial_iron**2)
+        forget(P, MAG_DELAY, 1, self.mag_delay_sigma**2)
+        forget(P, ACC_DELAY, 1, self.acc_delay_sigma**2)
+        unsure_attitude(self, P)
+        none = Mat3(ZERO, ZERO, ZERO)
+        put_sensor(P, Sensor(none, ZERO, ZERO, ZERO, self.mag_delay, 0.0, 0.0, _FIRST_SPREAD))
+        attitude = attitude_of(sample.acc, sample.mag, 0.0)
+        return State(attitude, bias, ZERO, sample.gyr, sample.acc, 0.0, False, P)
+
+    def restart(self, state: State, sample: Sample, bias: Vec3) -> State:
+        """Attitude from acc and mag anew; what was learned of the sensors, the bias too, stays."""
+        P = state.P
+        unsure_attitude(self, P)
+        forget(P, TURN, 2, (4.0 * self.initial_tilt) ** 2)  # it may well be in motion
+        enter_block(P, NOTHING, True)
+        begin_block(P)
+        put(P, SENSOR, 9, ZERO)
+        attitude = attitude_of(sample.acc, sample.mag, 0.0)
+        return State(attitude, state.bias, ZERO, sample.gyr, sample.acc, 0.0, state.begun, P)
+
+    def step(self, state: State, sample: Sample) -> State:
+        T, f, m, P = sample.dt, sample.acc, sample.mag, state.P
+        s, known = sums_of(P), sensor_of(P)
+
+        # 2. Strapdown
+        g = sample.gyr - state.bias
+        more: Vec3 = known.scale @ g
+        w = g + more
+        q = renormalized(state.attitude * exp(T * w))
+        R = matrix(q)
+
+        # 3. What the block adds up
+        add_turned(P, R, T * g)
+        clipped = s.clipped
+        if not within(sample.gyr, 0.98 * self.gyr_range):
+            clipped = clipped + T * clipped_columns(R, sample.gyr, 0.98 * self.gyr_range)
+        share = T / (0.5 + T)
+        mean_gyr = state.mean_gyr + share * (sample.gyr - state.mean_gyr)
+        still = within(sample.gyr - mean_gyr, self.rest_gyr) and within(mean_gyr, self.rest_gyr)
+        mean_acc = state.mean_acc
+        force, force_late, force_time, excess = s.force, s.force_late, s.force_time, s.excess_square
+        if present(f):
+            mean_acc = mean_acc + share * (f - mean_acc)
+            still = still and within(f - mean_acc, self.rest_acc)
+            earth: Vec3 = R @ turned_back(f, w, known.acc_delay)
+            moved: Vec3 = R @ cross(w, f)
+            force, force_late = force + sample.acc_dt * earth, force_late - sample.acc_dt * moved
+            force_time += sample.acc_dt
+            beyond = earth - self.gravity * UP
+            excess += dot(beyond, beyond)
+        mags, mag_time, off, to_iron, to_delay = s.mags, s.mag_time, s.off, s.to_iron, s.to_delay
+        if present(m):
+            mags, mag_time = mags + 1.0, mag_time + sample.mag_dt
+            if known.length > 0.0:
+                u: Vec3 = transpose(R) @ known.field
+                left: Vec3 = R @ turned_back(m / known.length - known.iron, w, known.mag_delay)
+                late: Vec3 = R @ cross(w, u)
+                off, to_iron, to_delay = off + left - known.field, to_iron + R, to_delay + late
+            else:
+                seen: Vec3 = R @ m
+                off = off + seen
+        sums = Sums(
+            s.time + T, s.samples + 1.0, s.rotation + T * R, force, force_late, force_time, s.gyr + sample.gyr,
+            s.rate_square + dot(w, w), excess, mags, mag_time, off, to_iron, to_delay, clipped,
+        )  # fmt: skip
+        seconds = state.still + T if still else 0.0
+        if sums.time < self.block - 0.5 * T:
+            put_sums(P, sums)
+            return State(q, state.bias, w, mean_gyr, mean_acc, seconds, state.begun, P)
+        return closed(self, State(q, state.bias, w, mean_gyr, mean_acc, seconds, state.begun, P), sums, known)
+
+    def output(self, state: State, sample: Sample) -> Output:
+        """The attitude, after *lead*, with true north; sigma about the Earth's axes from P and what P cannot know."""
+        q = state.attitude
+        if self.lead != 0.0:
+            q = q * exp(self.lead * state.rate)
+        if self.declination != 0.0:
+            q = exp(-self.declination * UP) * q
+        P = state.P
+        north = self.local_field**2 if float(P[SENSOR, 20]) > 0.0 else 0.0
+        turned, level = self.time_error * rotate(q, state.rate), self.level_error**2
+        sigma = Vec3(
+            _sigma(float(P[0, 0]) + level + turned.x * turned.x),
+            _sigma(float(P[1, 1]) + level + turned.y * turned.y),
+            _sigma(float(P[2, 2]) + north + turned.z * turned.z),
+        )
+        bias_sigma = Vec3(sqrt(float(P[3, 3])), sqrt(float(P[4, 4])), sqrt(float(P[5, 5])))
+        flags = REST if state.still >= self.rest_time else 0
+        if float(P[SENSOR, 21]) > 0.05**2:
+            flags |= MAG_DISTURBED
+        if not within(sample.gyr, 0.98 * self.gyr_range):
+            flags |= GYR_CLIPPED
+        if self.log > 0:  # which entry of the log the row stands behind
+            flags |= (int(P[SENSOR, 22]) & 0xFFF) << 20
+        return Output(sample.dt, q, state.rate, state.bias, sigma, bias_sigma, flags)
+
+    def learned(self, state: State) -> dict[str, dict[str, Any]]:
+        """What is known of the sensors by now: name → value, its sigma (of the same shape) and unit.
+
+        ``gyr_bias`` (3) and ``gyr_scale`` (3, 3) with ω = (I + A)(gyr − bias); ``field`` (2), north and up, ``hard_iron`` (3,
+        body frame) in the magnetometer's unit; ``mag_delay`` and ``acc_delay`` behind the gyroscope.
+        """
+        P, known = state.P, sensor_of(state.P)
+        sigma = np.sqrt(np.maximum(np.diag(P[:SIZE, :SIZE]), 0.0))
+        found = {
+            "gyr_bias": _learned(state.bias, sigma[BIAS : BIAS + 3], "rad/s"),
+            "gyr_scale": _learned(known.scale, sigma[SCALE : SCALE + 9].reshape(3, 3), "1"),
+            "acc_delay": _learned(known.acc_delay, sigma[ACC_DELAY], "s"),
+        }
+        if known.length > 0.0:
+            length = known.length
+            unit = "of the magnetometer"  # whatever that is: only directions counted
+            found["field"] = _learned(length * np.array(known.field[1:]), length * sigma[FIELD : FIELD + 2], unit)
+            found["hard_iron"] = _learned(length * np.array(known.iron), length * sigma[IRON : IRON + 3], unit)
+            found["mag_delay"] = _learned(known.mag_delay, sigma[MAG_DELAY], "s")
+        return found
+
+
+def _learned(value: Any, sigma: Any, unit: str) -> dict[str, Any]:
+    return {"value": np.array(value, float).tolist(), "sigma": np.array(sigma, float).tolist(), "unit": unit}
+
+
+@compiled
+def _sigma(variance: float) -> float:
+    """rad; an angle of which nothing is known is not further off than half a turn."""
+    return min(sqrt(variance), pi)
+
+
+@compiled
+def unsure_attitude(method: SelfCalibrating, P: Floats) -> None:
+    """P of an attitude by one sample, and of a velocity of which nothing is known."""
+    forget(P, TURN, 2, method.initial_tilt**2)
+    forget(P, TURN + 2, 1, method.initial_heading**2)
+    forget(P, VELOCITY, 3, 1.0)
+
+
+@compiled
+def turned_back(v: Vec3, w: Vec3, delay: float) -> Vec3:
+    """exp(−ω delay) v, to second order: a vector measured *delay* ago, in the body of now."""
+    turn = (-delay) * w
+    once = cross(turn, v)
+    return v + once + 0.5 * cross(turn, once)
+
+
+@compiled
+def clipped_columns(R: Mat3, gyr: Vec3, limit: float) -> Mat3:
+    """The columns of R of the axes whose rate is at the end of the range."""
+    x = 1.0 if abs(gyr.x) > limit else 0.0
+    y = 1.0 if abs(gyr.y) > limit else 0.0
+    z = 1.0 if abs(gyr.z) > limit else 0.0
+    return Mat3(
+        Vec3(x * R.x.x, y * R.x.y, z * R.x.z),
+        Vec3(x * R.y.x, y * R.y.y, z * R.y.z),
+        Vec3(x * R.z.x, y * R.z.y, z * R.z.z),
+    )
+
+
+@compiled
+def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> State:
+    """The state after the end of a block : 4. covariance, 5. rest, 6. pseudo-velocity, 7. magnetometer, 8. inject."""
+    P = state.P
+    T, rate_square = s.time, s.rate_square / s.samples
+    still = (1.0 / s.samples) * s.gyr - state.bias
+    rest = state.still >= method.rest_time
+
+    # 4. Covariance
+    walk = method.bias_walk_rest if rest else method.bias_walk
+    noise = Noise(
+        (method.gyr_noise**2 + method.scale_noise**2 * rate_square) * T,
+        walk**2 * T,
+        (method.acc_noise**2 + method.motion_noise**2 * s.excess_square / s.samples) * T,
+        method.field_walk**2 * T,
+        method.iron_walk**2 * T,
+    )
+    grow(P, s, noise)
+    add_clipping(P, s.clipped, 0.4 * method.gyr_range)
+    if not state.begun:  # half a sampling interval: whether a sample is the mean before its stamp or around it
+        P[ACC_DELAY, ACC_DELAY] += (0.5 * T / s.samples) ** 2
+    q = state.attitude if state.begun else levelled(method, state.attitude, s)
+    force = s.force if state.begun else rotate(q * conjugate(state.attitude), s.force)
+    v = known.velocity + force - (method.gravity * s.force_time) * UP
+    for j in range(SIZE):
+        P[X, j] = 0.0
+
+    # 5. At rest the mean rate is the bias, 6. the pseudo-velocity is near 0
+    if rest and likely_bias(method, P, still):
+        variance = method.rest_noise**2 * method.block / T
+        correct_one(P, BIAS, still.x, variance)
+        correct_one(P, BIAS + 1, still.y, variance)
+        correct_one(P, BIAS + 2, still.z, variance)
+    if s.force_time > 0.0:
+        variance = method.rest_speed**2 * method.block / T if rest else method.speed**2 / s.force_time
+        correct_one(P, VELOCITY, -v.x, variance)
+        correct_one(P, VELOCITY + 1, -v.y, variance)
+        correct_one(P, VELOCITY + 2, -v.z, variance)
+
+    # 7. Magnetometer
+    field, length, spread = known.field, known.length, known.spread
+    if s.mags > 0.0:
+        e = (1.0 / s.mags) * s.off if state.begun else rotate(q * conjugate(state.attitude), (1.0 / s.mags) * s.off)
+        if length == 0.0:
+            length = norm(e)
+            field = Vec3(0.0, sqrt(e.x * e.x + e.y * e.y) / length, e.z / length)
+            q = exp(atan2(e.x, e.y) * UP) * q
+        else:
+            share = s.mag_time / (method.spread_time + s.mag_time)
+            spread += share * (min(dot(e, e) / 3.0, 9.0 * spread) - spread)
+            variance = (method.field_time * spread + method.block * method.mag_rate_noise**2 * rate_square) / s.mag_time
+            all_axes = P[0, 0] + P[1, 1] > 2.0 * method.sure_tilt**2
+            correct_field(P, e, field, (1.0 / s.mags) * s.to_iron, (1.0 / s.mags) * s.to_delay, all_axes, variance)
+    symmetrise(P)
+
+    # 8. Inject
+    after = Sensor(
+        known.scale + three(P, X, SCALE),
+        v + vector(P, X, VELOCITY),
+        field + Vec3(0.0, float(P[X, FIELD]), float(P[X, FIELD + 1])),
+        known.iron + vector(P, X, IRON),
+        known.mag_delay + float(P[X, MAG_DELAY]),
+        known.acc_delay + float(P[X, ACC_DELAY]),
+        length,
+        spread,
+    )
+    put_sensor(P, after)
+    enter_block(P, s, not state.begun)
+    begin_block(P)
+    q = normalize(exp(vector(P, X, TURN)) * q)
+    bias = state.bias + vector(P, X, BIAS)
+    return State(q, bias, state.rate, state.mean_gyr, state.mean_acc, state.still, True, P)
+
+
+@compiled
+def likely_bias(method: SelfCalibrating, P: Floats, off: Vec3) -> bool:
+    """Whether a mean rate this far from the bias can be the bias itself: a slow, even turn is not."""
+    most = 25.0  # five sigma, squared
+    own = method.rest_noise**2
+    x, y, z = float(P[BIAS, BIAS]) + own, float(P[BIAS + 1, BIAS + 1]) + own, float(P[BIAS + 2, BIAS + 2]) + own
+    return off.x * off.x < most * x and off.y * off.y < most * y and off.z * off.z < most * z
+
+
+@compiled
+def levelled(method: SelfCalibrating, q: Quat, s: Sums) -> Quat:
+    """The attitude that a block started at, levelled where gravity contradicts it: then it was given, and wrong."""
+    if s.force_time == 0.0:
+        return q
+    mean = (1.0 / s.force_time) * s.force
+    length = norm(mean)
+    off = mean.z < cos(3.0 * method.initial_tilt) * length
+    return shortest_turn(unit(mean), UP) * q if off and abs(length - method.gravity) < 0.1 * method.gravity else q
+
+
+@compiled
+def correct_field(
+    P: Floats, e: Vec3, field: Vec3, to_iron: Mat3, to_delay: Vec3, all_axes: bool, variance: float
+) -> None:
+    """The three numbers of the field's error e = [h]× ε + δh + R₀ δb + R₀ (ω × u) δτ (eq. 14).
+
+    Of [h]× only what turns the heading, unless the tilt is unsure: a disturbed field is not to tilt the horizon.
+    """
+    for k in range(3):
+        for j in range(SIZE):
+            P[H, j] = 0.0
+        row = to_iron.x if k == 0 else (to_iron.y if k == 1 else to_iron.z)
+        put(P, H, IRON, row)
+        if k == 0:
+            P[H, TURN + 2] = field.y
+            P[H, TURN + 1] = -field.z if all_axes else 0.0
+            P[H, MAG_DELAY] = to_delay.x
+            correct(P, e.x, variance)
+        elif k == 1:
+            P[H, TURN] = field.z if all_axes else 0.0
+            P[H, FIELD] = 1.0
+            P[H, MAG_DELAY] = to_delay.y
+            correct(P, e.y, variance)
+        else:
+            P[H, TURN] = -field.y if all_axes else 0.0
+            P[H, FIELD + 1] = 1.0
+            P[H, MAG_DELAY] = to_delay.z
+            correct(P, e.z, variance)
+
+
+@compiled
+def add_clipping(P: Floats, clipped: Mat3, error: float) -> None:
+    """Q_ε += V Vᵀ error²: a clipped rate is wrong by any part of the range, the same way for as long as it lasts (eq. 11)."""
+    C: Mat3 = (error * error) * (clipped @ transpose(clipped))
+    P[0, 0] += C.x.x
+    P[0, 1] += C.x.y
+    P[0, 2] += C.x.z
+    P[1, 0] += C.y.x
+    P[1, 1] += C.y.y
+    P[1, 2] += C.y.z
+    P[2, 0] += C.z.x
+    P[2, 1] += C.z.y
+    P[2, 2] += C.z.z

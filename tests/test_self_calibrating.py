@@ -1,0 +1,350 @@
+"""The flagship: what it learns, how accurate it is, what its sigma covers, and its way back against a textbook's."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import poise
+from data_files import data_path
+from helpers import angle_between, rotation
+from poise.cli import run
+from poise.data.flags import Flag
+from poise.data.packet import Packet
+from poise.errors import MethodError
+from poise.estimators.self_calibrating.backward import back
+from poise.estimators.self_calibrating.model import (
+    ACC_DELAY,
+    ADDED,
+    BIAS,
+    CORRECTIONS,
+    ENTRIES,
+    ENTRY,
+    INJECTED,
+    ONE,
+    SCALE,
+    SENSOR,
+    SIZE,
+    TURN,
+    VELOCITY,
+)
+from poise.formats import read_attitude
+from poise.math import arrays
+from poise.simulation import PERFECT, Sensor, Triad, forearm, measure, robot
+
+Floats = NDArray[np.float64]
+
+FLAGSHIP = poise.SelfCalibrating()
+WHITE = replace(PERFECT, gyr=Triad(noise=1e-4), acc=Triad(noise=0.002), mag=Triad(noise=0.05))  # no other error
+PEERS = Path(__file__).parents[1] / "benchmarks" / "results" / "peers.json"
+
+
+@cache
+def made(sensor: Sensor = WHITE, seed: int = 4, duration: float = 120.0) -> poise.Recording:
+    return measure(forearm(duration, 100.0, seed), sensor, seed=1)
+
+
+@cache
+def trial(number: str) -> poise.Recording:
+    return poise.read(next(data_path("broad").glob(f"{number}_*.mat")))
+
+
+def total(attitude: poise.Attitude, recording: poise.Recording) -> float:
+    return poise.evaluate(attitude, recording).rmse_deg().total
+
+
+def learned(attitude: poise.Attitude, name: str) -> tuple[Floats, Floats]:
+    """A value and its sigma."""
+    assert attitude.learned is not None
+    return np.array(attitude.learned[name]["value"]), np.array(attitude.learned[name]["sigma"])
+
+
+def apart(a: poise.Attitude, b: poise.Attitude) -> float:
+    """The largest distance, degrees, over the rows that both have."""
+    known = np.isfinite(a.quat).all(axis=1) & np.isfinite(b.quat).all(axis=1)
+    return float(np.degrees(angle_between(a.quat[known], b.quat[known]).max()))
+
+
+# -- what it learns ---------------------------------------------------------------------------------------------------
+
+
+def test_the_gyroscopes_bias() -> None:
+    injected = np.array([0.010, -0.008, 0.005])
+    recording = made(replace(WHITE, gyr=Triad(noise=1e-4, bias=tuple(injected))), seed=3)
+    value, sigma = learned(poise.estimate(FLAGSHIP, recording), "gyr_bias")
+    assert np.abs(value - injected).max() < 2e-4  # rad/s: 0.011 deg/s
+    assert (np.abs(value - injected) < 3.0 * sigma).all()
+
+
+def test_the_gyroscopes_scale_and_misalignment() -> None:
+    A = np.array([[0.005, 0.003, -0.004], [0.002, -0.006, 0.003], [-0.003, 0.004, 0.004]])
+    clean = made()
+    recording = replace(clean, gyr=clean.gyr @ np.linalg.inv(np.eye(3) + A).T)
+    attitude = poise.estimate(FLAGSHIP, recording)
+    value, sigma = learned(attitude, "gyr_scale")
+    assert np.abs(value - A).max() < 0.003
+    assert (np.abs(value - A) < 3.0 * sigma).all()
+    without = poise.estimate(FLAGSHIP._replace(initial_scale=0.0), recording)
+    assert total(attitude, recording) < 0.6 * total(without, recording)
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.008, 0.025])
+def test_the_magnetometers_delay(delay: float) -> None:
+    value, sigma = learned(poise.estimate(FLAGSHIP, made(replace(WHITE, mag_delay=delay))), "mag_delay")
+    assert abs(value - delay) < 1e-3
+    assert abs(value - delay) < 3.0 * sigma < 3e-3
+
+
+def test_the_hard_iron_of_one_that_expects_some() -> None:
+    iron = np.array([3.0, -2.0, 1.5])
+    recording = made(replace(WHITE, mag=Triad(noise=0.05, bias=tuple(iron))))
+    value, sigma = learned(poise.estimate(FLAGSHIP._replace(initial_iron=0.05), recording), "hard_iron")
+    assert np.abs(value - iron).max() < 0.5  # µT
+    assert (np.abs(value - iron) < 3.0 * sigma).all()
+
+
+def test_half_a_sampling_interval_between_the_sensors() -> None:
+    """Samples that are means around their stamp leave the accelerometer half an interval behind the gyroscope's turn."""
+    clean = made()
+    late = replace(clean, acc=np.vstack([clean.acc[:1], 0.5 * (clean.acc[1:] + clean.acc[:-1])]))
+    before, _ = learned(poise.estimate(FLAGSHIP, clean), "acc_delay")
+    after, _ = learned(poise.estimate(FLAGSHIP, late), "acc_delay")
+    assert 0.001 < after - before < 0.006
+
+
+def test_without_magnetometer_nothing_is_said_of_it() -> None:
+    recording = replace(made(), mag=None)
+    attitude = poise.estimate(FLAGSHIP, recording)
+    assert attitude.learned is not None
+    assert set(attitude.learned) == {"gyr_bias", "gyr_scale", "acc_delay"}
+    assert attitude.heading_reference == "arbitrary"
+    assert poise.evaluate(attitude, recording).rmse_deg().inclination < 0.6
+    assert poise.evaluate(poise.smooth(recording), recording).rmse_deg().inclination < 0.4
+
+
+# -- accuracy and sigma -----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("number", ["09", "31", "35"])
+def test_real_trials_are_nearer_to_the_reference_than_vqf(number: str) -> None:
+    stored = json.loads(PEERS.read_text(encoding="utf-8"))["results"]
+    recording = trial(number)
+    for attitude, peer in ((poise.estimate(FLAGSHIP, recording), "vqf"), (poise.smooth(recording), "vqf-offline")):
+        theirs = next(s["total"] for name, s in stored[peer]["trials"].items() if name.startswith(number))
+        assert total(attitude, recording) < theirs, peer
+
+
+@pytest.mark.parametrize("seed", [3, 4])
+@pytest.mark.parametrize("offline", [False, True])
+def test_sigma_covers_the_error_of_a_sensor_with_white_noise(seed: int, offline: bool) -> None:
+    recording = made(WHITE, seed)
+    attitude = poise.smooth(recording) if offline else poise.estimate(FLAGSHIP, recording)
+    assert recording.truth is not None
+    error = (rotation(recording.truth.quat) * rotation(attitude.quat).inv()).as_rotvec()
+    assert (np.mean(np.abs(error) < 3.0 * attitude.sigma, axis=0) > 0.97).all()
+    assert (np.median(np.abs(error) / attitude.sigma, axis=0) > 0.02).all()  # nor is it any large number
+
+
+def test_sigma_is_never_less_than_what_no_future_can_tell() -> None:
+    """The accelerometer's own level: between two blocks the causal P once was taken for that of the next."""
+    for attitude in (poise.smooth(trial("09")), poise.estimate(FLAGSHIP, trial("09"))):
+        assert attitude.sigma[:, :2].min() >= FLAGSHIP.level_error
+    assert np.degrees(poise.smooth(trial("09")).sigma[0]).max() < 3.0  # the future knows the first block's heading
+
+
+# -- restart ----------------------------------------------------------------------------------------------------------
+
+
+def test_a_restart_keeps_what_was_learned() -> None:
+    clean = made(seed=3)
+    at = len(clean) // 2
+    time = clean.time.copy()
+    time[at:] += 2.0
+    stream = poise.Stream(FLAGSHIP)
+    stream.update(Packet(time[:at], clean.gyr[:at], clean.acc[:at], clean.mag[:at]))
+    before = stream.learned
+    row = stream.update(
+        Packet(time[at : at + 1], clean.gyr[at : at + 1], clean.acc[at : at + 1], clean.mag[at : at + 1])
+    )
+    assert row.flags[0] & Flag.RESET
+    assert np.degrees(row.sigma[0, 2]) > 50.0  # the attitude is unsure again
+    assert before is not None
+    for name in ("gyr_bias", "gyr_scale", "mag_delay", "acc_delay", "hard_iron", "field"):
+        assert stream.learned is not None
+        assert stream.learned[name] == before[name], name
+    assert clean.truth is not None
+    gap = replace(clean, time=time, truth=replace(clean.truth, time=time))
+    attitude = poise.estimate(FLAGSHIP, gap)
+    back_again = np.degrees(poise.evaluate(attitude, gap).total[at + 1000 :])
+    assert back_again.max() < 3.0
+
+
+# -- offline ----------------------------------------------------------------------------------------------------------
+
+
+def test_the_last_row_has_no_future() -> None:
+    smoothed, causal = poise.smooth(made()), poise.estimate(FLAGSHIP, made())
+    np.testing.assert_array_equal(smoothed.table[-1], causal.table[-1])
+    assert smoothed.provenance.method == "SelfCalibrating, smoothed"
+    assert smoothed.learned == causal.learned
+
+
+@pytest.mark.parametrize("seed", [3, 4])
+def test_the_future_makes_it_better(seed: int) -> None:
+    recording = made(WHITE, seed)
+    smoothed, causal = poise.smooth(recording), poise.estimate(FLAGSHIP, recording)
+    assert total(smoothed, recording) < 0.85 * total(causal, recording)
+    assert np.median(smoothed.sigma[:, 2]) < np.median(causal.sigma[:, 2])
+
+
+def test_windows_do_not_show() -> None:
+    whole = poise.smooth(trial("35"), window=1e9)
+    assert trial("35").duration > 120.0
+    assert apart(poise.smooth(trial("35"), window=60.0, overlap=120.0), whole) < 0.05
+
+
+def test_faults_are_bridged_and_flagged_as_without_the_future() -> None:
+    clean = made()
+    time, gyr, acc, mag = (getattr(clean, name).copy() for name in ("time", "gyr", "acc", "mag"))
+    acc[:30] = np.nan
+    gyr[2000], acc[2010], mag[2020] = np.nan, np.inf, 0.0
+    gyr[3000:3200] = np.nan
+    mag[5000:5600] = np.nan
+    time[7000:] += 5.0
+    time[8000], time[8010] = np.nan, time[8005]
+    assert clean.truth is not None
+    faulty = replace(clean, time=time, gyr=gyr, acc=acc, mag=mag, truth=replace(clean.truth, time=time))
+    smoothed, causal = poise.smooth(faulty), poise.estimate(FLAGSHIP, faulty)
+    np.testing.assert_array_equal(smoothed.flags, causal.flags)
+    np.testing.assert_array_equal(np.isfinite(smoothed.quat), np.isfinite(causal.quat))
+    known = np.isfinite(causal.table).all(axis=1)
+    assert np.isfinite(smoothed.table[known]).all()
+    assert ((smoothed.flags & (Flag.LOST | Flag.RESET)) != 0).any()
+    assert total(smoothed, faulty) < total(causal, faulty)
+
+
+def test_recordings_of_no_row_and_of_one() -> None:
+    assert len(poise.smooth(made()[:0])) == 0
+    one = poise.smooth(made()[:1])
+    assert one.valid.all()
+    assert apart(one, poise.estimate(FLAGSHIP, made()[:1])) == 0.0
+    few = poise.smooth(made()[:5])  # no block is complete
+    np.testing.assert_array_equal(few.table, poise.estimate(FLAGSHIP, made()[:5]).table)
+
+
+def test_true_north_is_the_declination_away() -> None:
+    magnetic, true = poise.smooth(made()), poise.smooth(made(), FLAGSHIP._replace(declination=0.1))
+    turned = arrays.multiply(arrays.turn_about_up(np.array(-0.1)), magnetic.quat)
+    assert np.degrees(angle_between(turned, true.quat).max()) < 1e-6
+    assert (magnetic.heading_reference, true.heading_reference) == ("magnetic", "true")
+
+
+def test_only_the_flagship_goes_back() -> None:
+    with pytest.raises(MethodError, match="only SelfCalibrating can be smoothed, found TwoStage"):
+        poise.smooth(made(), poise.TwoStage())  # type: ignore[arg-type]
+    with pytest.raises(MethodError, match="window and overlap"):
+        poise.smooth(made(), window=0.0)
+
+
+# -- the way back, beside a textbook's ----------------------------------------------------------------------------------
+
+
+def test_the_way_back_is_a_rauch_tung_striebel_smoother() -> None:
+    """F, h and P in full, the gain C = P Fᵀ (P⁻)⁻¹ solved densely; P⁻ from P by undoing the corrections that are logged."""
+    recording = made()[300:900]  # from rest into motion
+    stream = poise.Stream(FLAGSHIP._replace(log=100))
+    covariances: list[Floats] = []
+    for i in range(len(recording)):
+        r = recording[i : i + 1]
+        stream.update(Packet(r.time, r.gyr, r.acc, r.mag))
+        P = stream.running_state.inner.P
+        if int(P[SENSOR, 22]) > len(covariances):
+            covariances.append(P[:SIZE, :SIZE].copy())
+    n = len(covariances)
+    assert n > 70
+    log = P[ENTRIES : ENTRIES + n * ENTRY].copy()
+    found = np.zeros((n, 22))
+    back(log, np.zeros((SIZE + 2, SIZE)), found)
+
+    x, cov = np.zeros(SIZE), covariances[-1]
+    for k in range(n - 1, -1, -1):
+        np.testing.assert_allclose(found[k, :6], x[:6], rtol=0, atol=1e-9)
+        np.testing.assert_allclose(found[k, 12:18], np.diag(cov)[:6], rtol=1e-6, atol=1e-12)
+        if k == 0:
+            break
+        entry = log[k * ENTRY : (k + 1) * ENTRY]
+        F, before = transition(entry), covariances[k].copy()
+        for m in range(int(entry[0, ONE]) - 1, -1, -1):
+            Ph = entry[CORRECTIONS + 2 * m + 1, :SIZE]
+            before += entry[CORRECTIONS + 2 * m + 1, ONE] * np.outer(Ph, Ph)
+        gain = covariances[k - 1] @ F.T @ inverse(before)
+        x = gain @ (x + entry[INJECTED, :SIZE])
+        cov = covariances[k - 1] + gain @ (cov - before) @ gain.T
+    assert np.degrees(np.abs(found[:, :3]).max()) > 0.1  # there was something to correct
+
+
+def transition(entry: Floats) -> Floats:
+    """F of a block, 25 × 25, from what it added up (eq. 7 to 9)."""
+    F = np.eye(SIZE)
+    S_A, S_R = entry[ADDED : ADDED + 3, :9], entry[ADDED, 9:18].reshape(3, 3)
+    fx, fy, fz = entry[ADDED + 1, 9:12]
+    F[TURN : TURN + 3, BIAS : BIAS + 3] = -S_R
+    F[TURN : TURN + 3, SCALE : SCALE + 9] = S_A
+    # of [S_f]× not what would make of a horizontal acceleration a heading
+    F[VELOCITY : VELOCITY + 3, TURN : TURN + 3] = -np.array([[0, -fz, 0], [fz, 0, 0], [-fy, fx, 0]])
+    F[VELOCITY : VELOCITY + 3, ACC_DELAY] = entry[ADDED + 2, 9:12]
+    return F
+
+
+def inverse(P: Floats) -> Floats:
+    """Scaled first: its states have seven units."""
+    scale = 1.0 / np.sqrt(np.diag(P))
+    return np.asarray(np.linalg.inv(P * np.outer(scale, scale)) * np.outer(scale, scale))
+
+
+# -- the command ------------------------------------------------------------------------------------------------------
+
+
+def test_the_command_tells_what_was_learned(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    poise.write(made()[:2000], "made.csv")
+    assert run(["estimate", "made.csv", "--learned"]) == 0
+    out = capsys.readouterr().out
+    assert all(word in out for word in ("gyr_scale", "mag_delay", "hard_iron", "sigma"))
+    assert run(["estimate", "made.csv", "--offline", "--json", "-o", "back.parquet"]) == 0
+    (result,) = json.loads(capsys.readouterr().out)["results"]
+    expected = poise.smooth(poise.read("made.csv"))
+    assert result["learned"] == expected.learned
+    written = read_attitude("back.parquet")
+    np.testing.assert_array_equal(written.quat, expected.quat)
+    assert written.provenance.method == "SelfCalibrating, smoothed"
+    assert run(["estimate", "made.csv", "-m", "two-stage", "--offline"]) == 2
+    assert "--offline goes with --method self-calibrating" in capsys.readouterr().err
+    assert run(["estimate", "made.csv", "-m", "two-stage", "--learned"]) == 0
+    assert "learns nothing about the sensors" in "".join(capsys.readouterr())
+
+
+# -- defects that were --------------------------------------------------------------------------------------------------
+
+
+def test_a_slow_turn_is_not_the_bias() -> None:
+    recording = measure(robot(120.0, 100.0, 4), WHITE, seed=4)  # drives on, turning at 0.9 deg/s, from 78 s on
+    assert total(poise.estimate(FLAGSHIP, recording), recording) < 3.0
+
+
+def test_without_magnetometer_north_stays_unknown() -> None:
+    recording = replace(made(), mag=None)
+    assert poise.estimate(FLAGSHIP, recording).sigma[-1, 2] > 0.9 * FLAGSHIP.initial_heading
+
+
+def test_the_future_makes_it_better_beside_hard_iron_too() -> None:
+    recording = made(replace(WHITE, mag=Triad(noise=0.05, bias=(3.0, -2.0, 1.5))))
+    assert total(poise.smooth(recording), recording) < total(poise.estimate(FLAGSHIP, recording), recording)
