@@ -104,6 +104,24 @@ def test_a_planted_disagreement_is_found_and_blamed(
     assert getattr(comparison.pairs, part)[0, i] == pytest.approx(25.0 * np.sqrt(500 / 3000), rel=0.01)
 
 
+def test_seconds_away_are_of_the_rows_beyond_the_limit_not_of_the_stretch(recording: poise.Recording) -> None:
+    quat = turned(recording, 25.0, slice(1000, 1020))
+    for first in range(1080, 1500, 80):  # 0.2 s beyond, 0.6 s within: one stretch
+        quat[first : first + 20] = turned(recording, 25.0, slice(first, first + 20))[first : first + 20]
+    quat[2000:2010] = turned(recording, 25.0, slice(2000, 2010))[2000:2010]  # too short to be told
+    comparison = poise.compare(recording, {}, {"liar": planted(quat, "liar")})
+    [stretch] = comparison.stretches()
+    assert stretch.end - stretch.start == pytest.approx(5.0, abs=0.05)
+    assert comparison.seconds_away("liar") == pytest.approx(7 * 0.2 + 0.1, abs=0.001)
+
+
+def test_a_gap_in_the_stamps_is_not_time_beyond_the_limit() -> None:
+    time = np.array([0.0, 0.01, 0.02, 60.0, 60.01])
+    assert departures.beyond(time, np.array([0.0, 0.0, 0.3, 0.0, 0.3]), 0.1) == pytest.approx(0.02)
+    assert departures.beyond(time[:1], np.array([0.3]), 0.1) == 0.0
+    assert departures.beyond(time[:0], np.empty(0), 0.1) == 0.0
+
+
 def test_with_a_reference_the_same_stretch_is_counted_from_it(recording: poise.Recording) -> None:
     everyone = {name: planted(turned(recording, 25.0, slice(1000, 1500)), name) for name in TRUTHFUL}
     found = poise.compare(recording, {}, everyone).stretches()

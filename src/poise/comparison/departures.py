@@ -245,6 +245,15 @@ def worst(time: Floats, angle: Floats, seconds: float = 5.0) -> dict[str, Any] |
     return {"start": float(stamps[start]), "end": float(stamps[after[start] - 1]), "mean_deg": float(means[best])}
 
 
+def beyond(time: Floats, angle: Floats, limit: float) -> float:
+    """s in all that *angle* (n,) is above *limit*, both rad: each row lasts until the next stamp, over a gap as usual."""
+    clock = _rising(time)
+    steps = np.diff(clock)
+    usual = float(np.median(steps[steps > 0])) if (steps > 0).any() else 0.0
+    lasting = np.append(np.where(steps > max(BRIDGE, usual), usual, steps), usual)[: len(clock)]
+    return float(np.sum(lasting[angle > limit]))
+
+
 def settled(time: Floats, angle: Floats, limit: float, seconds: float = 1.0) -> float | None:
     """s after the first known row until *angle* (n,) has stayed within *limit*, rad, for *seconds*; None if never."""
     clock = _rising(time)
