@@ -98,7 +98,43 @@ def test_plot_draws_recordings_and_attitudes(folder: Path, capsys: pytest.Captur
 
 def test_an_unwritable_report_is_told(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["compare", "made.csv", "-m", "gated", "--report", "empty.csv/a.html"]) == 1
-    assert "is a file, not a folder" in capsys.readouterr().err
+    captured = capsys.readouterr()
+    assert "is a file, not a folder" in captured.err and captured.out == ""
+
+
+@pytest.mark.parametrize("option", ["--report={}/a.html", "--plot={}/a.png"])
+def test_a_place_that_cannot_be_written_is_told_before_any_work(
+    option: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("poise.comparison.compare", lambda *_, **__: pytest.fail("worked for nothing"))
+    assert run(["compare", "made.csv", "-m", "gated", option.format("made.csv")]) == 1
+    assert len(capsys.readouterr().err.strip().splitlines()) == 1
+    monkeypatch.setattr("tempfile.TemporaryFile", _refuse)
+    assert run(["compare", "made.csv", "-m", "gated", option.format("new")]) == 1
+    assert "No space left" in capsys.readouterr().err and not (folder / "new").exists()
+
+
+@pytest.mark.parametrize("json_too", [False, True])
+@pytest.mark.parametrize("option", ["--report=a.html", "--plot=a.png"])
+def test_results_are_told_where_a_file_cannot_be_written_after_all(
+    option: str, json_too: bool, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("poise.formats.saving.os.fsync", _refuse)
+    monkeypatch.setattr("matplotlib.figure.Figure.savefig", _refuse if "plot" in option else lambda *_, **__: None)
+    monkeypatch.setattr("poise.report.report", lambda *_, **__: "a page")
+    assert run(["compare", "made.csv", "-m", "gated", option, *(["--json"] if json_too else [])]) == 1
+    captured = capsys.readouterr()
+    assert [line for line in captured.err.splitlines() if line.startswith("poise:")] == captured.err.splitlines()[-1:]
+    assert "No space left" in captured.err and "report in" not in captured.err and "picture in" not in captured.err
+    if json_too:
+        document = json.loads(captured.out)
+        assert document["results"][0]["estimators"][0]["rows"] > 0 and "No space left" in document["errors"][0]["error"]
+    else:
+        assert "gated" in captured.out
+
+
+def _refuse(*_: object, **__: object) -> None:
+    raise OSError(28, "No space left on device")
 
 
 def test_demo_writes_everything(

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from poise.cli import show
-from poise.cli.compare import Compared, as_document, run, tell, write_report
+from poise.cli.compare import Compared, as_document, run, tell, troubles, write_report
 from poise.cli.options import Reading
 from poise.errors import PoiseError
 
@@ -40,7 +40,9 @@ def demo(*, output: Annotated[Path, Parameter(name=["--output", "-o"])] = Path("
         peers = available_peers()
         pictures = {file: file.with_suffix(".comparison.png") for file in files}
         done, refused = run(files, (methods_named(), peers), Reading(), LIMIT_DEG, pictures)
-        if refused:
+        for each in troubles(done):
+            show.problem(each["error"])
+        if refused or troubles(done):
             return 1
         for one in done:
             _draw(one)
