@@ -164,6 +164,15 @@ def test_where_there_is_no_majority_it_is_said(recording: poise.Recording, blind
     assert any("10.0 s in all" in note for note in poise.compare(blind, {}, split).notes)
 
 
+@pytest.mark.parametrize(("far", "said"), [((60.0, -60.0), False), ((60.0, -60.0, 90.0), True)])
+def test_half_within_the_limit_is_enough(
+    recording: poise.Recording, blind: poise.Recording, far: tuple[float, ...], said: bool
+) -> None:
+    everyone = {name: truthful(recording)[name] for name in "ab"}
+    everyone |= {f"far{d:g}": planted(turned(recording, d, slice(500, 1500)), f"far{d:g}") for d in far}
+    assert any("fewer than half" in note for note in poise.compare(blind, {}, everyone).notes) is said
+
+
 def test_one_that_fails_is_a_row_with_its_reason(recording: poise.Recording) -> None:
     def broken(_: poise.Recording) -> np.ndarray:
         raise ZeroDivisionError("no luck")

@@ -181,12 +181,12 @@ def _notes(recording: Recording, against: str, runs: list[Run], limit_deg: float
 
 
 def _without_majority(recording: Recording, runs: list[Run], limit_deg: float) -> float:
-    """s for which no more than half of the estimators with an attitude are near the consensus."""
+    """s for which fewer than half of the estimators with an attitude are near the consensus."""
     judged = np.stack([run.judged for run in runs])
     with np.errstate(invalid="ignore"):
         near = np.sum(np.degrees(judged) <= limit_deg, axis=0)
     there = np.sum(np.isfinite(judged), axis=0)
-    split = (there > 0) & (2 * near <= there)
+    split = (there > 0) & (2 * near < there)
     return float(split.sum() / recording.rate_hz) if recording.rate_hz > 0 else 0.0
 
 
