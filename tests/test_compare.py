@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -206,6 +206,41 @@ def test_what_cannot_be_compared_is_refused(recording: poise.Recording) -> None:
     with pytest.raises(RecordingError, match="no rows"):
         poise.compare(recording[:0])
     assert "Unfinished" in poise.compare(recording, {"mine": Unfinished()}).runs[0].failure
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        {"methods": {"mine": poise.TwoStage}},
+        {"methods": poise.TwoStage},
+        {"methods": [poise.TwoStage()]},
+        {"methods": {1: poise.TwoStage()}},
+        {"methods": {"mine": "two-stage"}},
+        {"methods": [1]},
+        {"methods": 5},
+        {"peers": 5},
+        {"peers": [None]},
+        {"peers": {"mine": "vqf"}},
+        {"limit_deg": "5"},
+        {"limit_deg": None},
+        {"limit_deg": True},
+    ],
+)
+def test_what_is_no_estimator_is_refused_in_words(recording: poise.Recording, bad: dict[str, Any]) -> None:
+    with pytest.raises(PoiseError, match="expected"):
+        poise.compare(recording, **({"methods": "tilt"} | bad))
+
+
+def test_a_single_method_or_a_list_of_peers_will_do(recording: poise.Recording) -> None:
+    assert [run.name for run in poise.compare(recording[:200], poise.TwoStage()).runs] == ["two-stage"]
+    assert [run.name for run in poise.compare(recording, Unfinished(), truthful(recording)["a"]).runs] == [
+        "Unfinished",
+        "a",
+    ]
+    assert [run.name for run in poise.compare(recording[:200], "tilt", []).runs] == ["tilt"]
+    pytest.importorskip("vqf")
+    names = [run.name for run in poise.compare(recording[:200], {}, ["vqf-offline", "vqf"]).runs]
+    assert names == ["vqf-offline", "vqf"]
 
 
 def test_a_flag_explains_only_what_it_can(recording: poise.Recording, blind: poise.Recording) -> None:

@@ -13,19 +13,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
+from numbers import Real
 from typing import Any, Literal
 
 import numpy as np
 
 from poise.comparison.agreement import aligned, consensus
+from poise.comparison.choice import as_methods, as_peers, available_peers, methods_named
 from poise.comparison.departures import Stretch
 from poise.comparison.result import Comparison, Heading, Pairs, Run
 from poise.data.attitude import Attitude
 from poise.data.recording import Recording
 from poise.errors import MethodError, PoiseError, RecordingError
-from poise.estimators import METHODS
 from poise.evaluation import evaluate
-from poise.peers import PEERS, Peer, chosen, installed
+from poise.peers import Peer, installed
 
 __all__ = [
     "LIMIT_DEG",
@@ -44,28 +45,26 @@ LIMIT_DEG = 10.0
 
 def compare(
     recording: Recording,
-    methods: Mapping[str, Any] | Iterable[str] | None = None,
-    peers: Mapping[str, Peer] | str = "",
+    methods: Any = None,
+    peers: Mapping[str, Peer] | Iterable[str] | Peer | str = "",
     *,
     limit_deg: float = LIMIT_DEG,
     progress: Callable[[str, float], None] | None = None,
 ) -> Comparison:
     """Every method and peer on *recording*, side by side.
 
-    *methods* are names of :data:`poise.METHODS` or methods by a name of your own; all with their defaults if not given.
-    *peers* as :func:`poise.peers.chosen` understands them, "vqf,imufusion,ahrs". *progress* is called with the name of
+    *methods* are names of :data:`poise.METHODS`, methods by a name of your own, or a single one of either; all with their
+    defaults if not given. *peers* as :func:`poise.peers.chosen` understands them, "vqf,imufusion,ahrs", or a list of such
+    names, or peers by name. *progress* is called with the name of
     the estimator that is run and the share done. An estimator that cannot run is a run with its reason, and an attitude
     without a row is one; raises :class:`RecordingError` only for a recording without rows, and for names not known
     :class:`PoiseError`.
     """
     if not isinstance(recording, Recording):
         raise RecordingError(f"expected a Recording to compare on, found {type(recording).__name__}")
-    if not np.isfinite(limit_deg) or not 0.0 < limit_deg <= 180.0:
+    if not isinstance(limit_deg, Real) or isinstance(limit_deg, bool) or not 0.0 < limit_deg <= 180.0:
         raise RecordingError(f"limit_deg: expected degrees above 0, up to 180, found {limit_deg!r}")
-    todo: dict[str, Any] = dict(methods) if isinstance(methods, Mapping) else methods_named(methods)
-    others: dict[str, Peer] = {}
-    if peers:
-        others = chosen(peers) if isinstance(peers, str) else dict(peers)
+    todo, others = as_methods(methods), as_peers(peers)
     if twice := todo.keys() & others.keys():
         raise MethodError(f"{', '.join(sorted(twice))}: a method and a peer of the same name; rename one")
     todo |= others
@@ -79,20 +78,6 @@ def compare(
             progress(name, i / len(todo))
         runs.append(_run(name, estimator, recording))
     return _judged(recording, runs, limit_deg)
-
-
-def methods_named(names: Iterable[str] | None = None) -> dict[str, Any]:
-    """Methods with their defaults, by the names of :data:`poise.METHODS`; all of them if no names are given."""
-    wanted = list(METHODS if names is None else [names] if isinstance(names, str) else names)
-    for name in wanted:
-        if name not in METHODS:
-            raise MethodError(f"no method {name!r}; there are {', '.join(METHODS)}")
-    return {name: METHODS[name]() for name in wanted}
-
-
-def available_peers() -> dict[str, Peer]:
-    """The peers whose package is installed."""
-    return {name: peer for name, peer in PEERS.items() if installed(peer.package) is not None}
 
 
 def _run(name: str, estimator: Any, recording: Recording) -> Run:
