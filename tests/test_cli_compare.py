@@ -114,6 +114,26 @@ def test_a_place_that_cannot_be_written_is_told_before_any_work(
     assert "No space left" in capsys.readouterr().err and not (folder / "new").exists()
 
 
+def test_where_every_estimator_fails_the_exit_code_says_so(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    header = "time,gx[rad/s],gy[rad/s],gz[rad/s],ax[m/s^2],ay[m/s^2],az[m/s^2]\n"
+    (folder / "void.csv").write_text(header + "".join(f"{i / 100},nan,nan,nan,nan,nan,nan\n" for i in range(50)))
+    assert run(["compare", "void.csv", "-m", "two-stage", "-m", "gated", "--report", "a.html"]) == 1
+    captured = capsys.readouterr()
+    assert "poise: void.csv: no estimator gave an attitude" in captured.err.splitlines()
+    page = (folder / "a.html").read_text(encoding="utf-8")
+    assert "consensus" not in captured.out + captured.err + page.split("</style>")[1]
+    assert run(["compare", "void.csv", "made.csv", "-m", "gated", "--json"]) == 1
+    assert [error["file"] for error in json.loads(capsys.readouterr().out)["errors"]] == ["void.csv"]
+
+
+def test_where_no_row_moves_evaluate_says_so(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    recording = poise.read("made.csv")
+    poise.write(replace(recording, moving=[False] * len(recording)), folder / "still.csv")
+    assert run(["evaluate", "still.csv"]) == 1
+    error = capsys.readouterr().err
+    assert "no row moves, so none counts" in error and "clocks" not in error
+
+
 @pytest.mark.parametrize("json_too", [False, True])
 @pytest.mark.parametrize("option", ["--report=a.html", "--plot=a.png"])
 def test_results_are_told_where_a_file_cannot_be_written_after_all(

@@ -190,6 +190,10 @@ def test_nothing_usable_is_told_row_by_row() -> None:
     comparison = poise.compare(empty, ["two-stage"], "vqf")
     assert comparison.done == [] and comparison.stretches() == () and comparison.best is None
     assert all(run.failure for run in comparison.runs)
+    table = tables.estimators(comparison)
+    assert not any("consensus" in text for text in (*comparison.notes, table.title, *table.columns))
+    assert [row[-1] for row in table.rows] == [run.failure for run in comparison.runs]
+    assert tables.mean_tables([comparison, comparison]) == []
     json.dumps(comparison.to_dict(), allow_nan=False)
 
 
@@ -259,6 +263,32 @@ def test_a_flag_explains_only_what_it_can(recording: poise.Recording, blind: poi
     told = " ".join(found.reasons)
     assert "counts less (80% of the stretch)" in told and "started anew" in told and "0.5 s before it begins" in told
     assert "magnetometer sample" not in told  # a missing magnetometer does not tilt anything
+
+
+@pytest.mark.parametrize(
+    ("rows", "is_start"),
+    [(slice(0, 300), True), (slice(50, 300), False), (slice(0, 1200), False), (slice(2800, None), False)],
+)
+def test_its_start_is_what_begins_with_the_first_row_and_is_over(
+    recording: poise.Recording, rows: slice, is_start: bool
+) -> None:
+    [found] = poise.compare(recording, {}, {"liar": planted(turned(recording, 25.0, rows), "liar")}).found
+    assert any("its start" in reason for reason in found.reasons) is is_start
+
+
+def test_a_departure_that_is_the_whole_recording_is_not_its_start(recording: poise.Recording) -> None:
+    short = recording[:500]
+    [found] = poise.compare(short, {}, {"liar": planted(turned(short, 25.0, slice(None)), "liar")}).found
+    assert not found.reasons
+
+
+def test_where_no_row_moves_it_is_said(recording: poise.Recording) -> None:
+    still = replace(recording, moving=np.zeros(len(recording), bool))
+    comparison = poise.compare(still, {}, truthful(recording))
+    assert any("no row moves, so none counts" in note for note in comparison.notes)
+    for row in tables.estimators(comparison).rows:
+        assert not any(np.isfinite(cell) for cell in row if isinstance(cell, float)) and row[6] == "-"
+    assert not any("moves" in note for note in poise.compare(recording, {}, truthful(recording)).notes)
 
 
 def test_a_disturbed_field_is_told(recording: poise.Recording) -> None:

@@ -137,8 +137,13 @@ def run(
 
 
 def troubles(done: Sequence[Compared]) -> list[dict[str, str]]:
-    """What went wrong with files that were compared all the same."""
-    return [{"file": str(one.file), "error": one.undrawn} for one in done if one.undrawn]
+    """What went wrong with files that could be read: no estimator can run on it, or its picture cannot be written."""
+    found = [
+        {"file": str(one.file), "error": f"{one.file}: no estimator gave an attitude"}
+        for one in done
+        if not one.comparison.done
+    ]
+    return found + [{"file": str(one.file), "error": one.undrawn} for one in done if one.undrawn]
 
 
 def _draw(comparison: Comparison, picture: Path) -> None:

@@ -138,13 +138,15 @@ def _first(runs: Iterable[Run], heading: Heading) -> Attitude | None:
 def _notes(recording: Recording, against: str, runs: list[Run], limit_deg: float) -> tuple[str, ...]:
     notes = []
     done = [run for run in runs if run.attitude is not None]
+    if not done:
+        return ("no estimator gave an attitude: there is nothing to compare",)
     if against == "consensus":
         notes.append("no reference: distances are from the estimators' consensus, which may be wrong as a whole")
         if len(done) == 1:
             notes.append("one estimator alone has nothing to be compared with")
         elif len(done) == 2:
             notes.append("two estimators: each is half of their distance from the middle, and neither can be blamed")
-        elif done and (split := _without_majority(recording, done, limit_deg)) > 0.5:
+        elif (split := _without_majority(recording, done, limit_deg)) > 0.5:
             notes.append(
                 f"for {split:.1f} s in all fewer than half of them are within {limit_deg:g}° of the consensus: there it says "
                 "nothing"
@@ -156,6 +158,8 @@ def _notes(recording: Recording, against: str, runs: list[Run], limit_deg: float
     if none := [run.name for run in done if run.heading == "none"]:
         notes.append(f"{', '.join(none)}: no heading of its own, judged by inclination only")
     truth = recording.truth
+    if against == "reference" and recording.moving is not None and not recording.moving.any():
+        notes.append("no row moves, so none counts: there are no errors to tell; departures are told of all rows")
     if against == "reference" and truth is not None:
         own = {run.attitude.heading_reference for run in done if run.attitude is not None and run.heading == "own"}
         if truth.heading_reference == "true" and "magnetic" in own:
