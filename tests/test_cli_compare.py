@@ -7,6 +7,7 @@ import json
 import shlex
 import sys
 from dataclasses import replace
+from html import unescape
 from pathlib import Path
 
 import pytest
@@ -52,15 +53,17 @@ def test_compare_tells_and_draws(folder: Path, capsys: pytest.CaptureFixture[str
 def test_the_command_in_the_report_makes_it_again(folder: Path) -> None:
     odd = folder / "it's $(odd).csv"
     (folder / "made.csv").rename(odd)
-    assert run(["compare", odd.name, "-m", "gated", "--rate", "100", "--report", "a.html"]) == 0
-    page = (folder / "a.html").read_text(encoding="utf-8")
-    from html import unescape
-
-    command = unescape(page.split("<pre><code>")[1].split("</code>")[0])
-    words = shlex.split(command)
+    options = ["--rate", "100", "--remap=-y x z", "--limit", "3.123456789"]
+    assert run(["compare", odd.name, "-m", "gated", *options, "--report=-a.html"]) == 0
+    words = shlex.split(command_in(folder / "-a.html"))
     assert words[:3] == ["poise", "compare", odd.name] and "gated" in words and "--rate" in words
-    (folder / "a.html").unlink()
-    assert run(words[1:]) == 0 and (folder / "a.html").exists()
+    assert "--remap=-y x z" in words and words[words.index("--limit") + 1] == "3.123456789"
+    (folder / "-a.html").unlink()
+    assert run(words[1:]) == 0 and (folder / "-a.html").exists()
+
+
+def command_in(report: Path) -> str:
+    return unescape(report.read_text(encoding="utf-8").split("<pre><code>")[1].split("</code>")[0])
 
 
 @pytest.mark.parametrize(
@@ -162,12 +165,16 @@ def test_demo_writes_everything(
 ) -> None:
     monkeypatch.setattr(sys.modules["poise.cli.demo"], "_DURATION", 6.0)
     monkeypatch.setattr("poise.comparison.available_peers", dict)
-    assert run(["demo", "-o", "shown"]) == 0
-    names = {path.name for path in (folder / "shown").iterdir()}
+    assert run(["demo", "-o", "what's shown"]) == 0
+    names = {path.name for path in (folder / "what's shown").iterdir()}
     made = {f"{name}.{kind}" for name in ("forearm", "phone", "robot") for kind in ("csv", "png", "comparison.png")}
     assert names == made | {"report.html", "table.csv", "comparison.json"}
-    rows = list(csv.DictReader((folder / "shown" / "table.csv").open()))
+    rows = list(csv.DictReader((folder / "what's shown" / "table.csv").open()))
     assert len(rows) == 3 * len(poise.METHODS)
     assert all(float(row["inclination_rmse_deg"]) < 10.0 for row in rows)
+    words = shlex.split(command_in(folder / "what's shown" / "report.html"))
+    assert words[2] == str(Path("what's shown", "forearm.csv")) and words[-1] == str(
+        Path("what's shown", "report.html")
+    )
     assert "Mean RMS error over 3 recordings" in capsys.readouterr().out
     assert run(["demo", "-o", "made.csv"]) == 1

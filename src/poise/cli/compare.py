@@ -227,16 +227,21 @@ def _check_report(report: Path, others: Sequence[Path]) -> None:
         usage(f"--report {report} is one of the recordings or pictures; nothing is written over them")
 
 
+def again(files: Sequence[Path], options: Sequence[tuple[str, object]]) -> str:
+    """The command, as a shell takes it, that compares *files* with *options* again."""
+    words = ["poise", "compare", *(f"./{f}" if str(f).startswith("-") else str(f) for f in files)]
+    for name, value in options:
+        words += [f"{name}={value}"] if str(value).startswith("-") else [name, str(value)]
+    return shlex.join(words)
+
+
 def _command(
     files: Sequence[Path], method: Sequence[str], with_: str, limit: float, reading: Reading, report: Path
 ) -> str:
     """The command that makes the same report."""
-    words = ["poise", "compare", *(f"./{f}" if str(f).startswith("-") else str(f) for f in files)]
-    for name in method:
-        words += ["--method", name]
-    words += ["--with", with_] if with_ else []
-    words += ["--limit", f"{limit:g}"] if limit != 10.0 else []
-    for option in fields(reading):
-        value = getattr(reading, option.name)
-        words += [f"--{option.name}", str(value)] if value is not None else []
-    return shlex.join([*words, "--report", str(report)])
+    options: list[tuple[str, object]] = [("--method", name) for name in method]
+    options += [("--with", with_)] if with_ else []
+    options += [("--limit", limit)] if limit != 10.0 else []
+    found = ((f"--{option.name}", getattr(reading, option.name)) for option in fields(reading))
+    options += [(name, value) for name, value in found if value is not None]
+    return again(files, [*options, ("--report", report)])
