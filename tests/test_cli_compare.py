@@ -7,6 +7,7 @@ import json
 import shlex
 import sys
 from dataclasses import replace
+from html import unescape
 from pathlib import Path
 
 import pytest
@@ -52,15 +53,17 @@ def test_compare_tells_and_draws(folder: Path, capsys: pytest.CaptureFixture[str
 def test_the_command_in_the_report_makes_it_again(folder: Path) -> None:
     odd = folder / "it's $(odd).csv"
     (folder / "made.csv").rename(odd)
-    assert run(["compare", odd.name, "-m", "gated", "--rate", "100", "--report", "a.html"]) == 0
-    page = (folder / "a.html").read_text(encoding="utf-8")
-    from html import unescape
-
-    command = unescape(page.split("<pre><code>")[1].split("</code>")[0])
-    words = shlex.split(command)
+    options = ["--rate", "100", "--remap=-y x z", "--limit", "3.123456789"]
+    assert run(["compare", odd.name, "-m", "gated", *options, "--report=-a.html"]) == 0
+    words = shlex.split(command_in(folder / "-a.html"))
     assert words[:3] == ["poise", "compare", odd.name] and "gated" in words and "--rate" in words
-    (folder / "a.html").unlink()
-    assert run(words[1:]) == 0 and (folder / "a.html").exists()
+    assert "--remap=-y x z" in words and words[words.index("--limit") + 1] == "3.123456789"
+    (folder / "-a.html").unlink()
+    assert run(words[1:]) == 0 and (folder / "-a.html").exists()
+
+
+def command_in(report: Path) -> str:
+    return unescape(report.read_text(encoding="utf-8").split("<pre><code>")[1].split("</code>")[0])
 
 
 @pytest.mark.parametrize(
@@ -98,7 +101,63 @@ def test_plot_draws_recordings_and_attitudes(folder: Path, capsys: pytest.Captur
 
 def test_an_unwritable_report_is_told(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["compare", "made.csv", "-m", "gated", "--report", "empty.csv/a.html"]) == 1
-    assert "is a file, not a folder" in capsys.readouterr().err
+    captured = capsys.readouterr()
+    assert "is a file, not a folder" in captured.err and captured.out == ""
+
+
+@pytest.mark.parametrize("option", ["--report={}/a.html", "--plot={}/a.png"])
+def test_a_place_that_cannot_be_written_is_told_before_any_work(
+    option: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("poise.comparison.compare", lambda *_, **__: pytest.fail("worked for nothing"))
+    assert run(["compare", "made.csv", "-m", "gated", option.format("made.csv")]) == 1
+    assert len(capsys.readouterr().err.strip().splitlines()) == 1
+    monkeypatch.setattr("tempfile.TemporaryFile", _refuse)
+    assert run(["compare", "made.csv", "-m", "gated", option.format("new")]) == 1
+    assert "No space left" in capsys.readouterr().err and not (folder / "new").exists()
+
+
+def test_where_every_estimator_fails_the_exit_code_says_so(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    header = "time,gx[rad/s],gy[rad/s],gz[rad/s],ax[m/s^2],ay[m/s^2],az[m/s^2]\n"
+    (folder / "void.csv").write_text(header + "".join(f"{i / 100},nan,nan,nan,nan,nan,nan\n" for i in range(50)))
+    assert run(["compare", "void.csv", "-m", "two-stage", "-m", "gated", "--report", "a.html"]) == 1
+    captured = capsys.readouterr()
+    assert "poise: void.csv: no estimator gave an attitude" in captured.err.splitlines()
+    page = (folder / "a.html").read_text(encoding="utf-8")
+    assert "consensus" not in captured.out + captured.err + page.split("</style>")[1]
+    assert run(["compare", "void.csv", "made.csv", "-m", "gated", "--json"]) == 1
+    assert [error["file"] for error in json.loads(capsys.readouterr().out)["errors"]] == ["void.csv"]
+
+
+def test_where_no_row_moves_evaluate_says_so(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    recording = poise.read("made.csv")
+    poise.write(replace(recording, moving=[False] * len(recording)), folder / "still.csv")
+    assert run(["evaluate", "still.csv"]) == 1
+    error = capsys.readouterr().err
+    assert "no row moves, so none counts" in error and "clocks" not in error
+
+
+@pytest.mark.parametrize("json_too", [False, True])
+@pytest.mark.parametrize("option", ["--report=a.html", "--plot=a.png"])
+def test_results_are_told_where_a_file_cannot_be_written_after_all(
+    option: str, json_too: bool, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("poise.formats.saving.os.fsync", _refuse)
+    monkeypatch.setattr("matplotlib.figure.Figure.savefig", _refuse if "plot" in option else lambda *_, **__: None)
+    monkeypatch.setattr("poise.report.report", lambda *_, **__: "a page")
+    assert run(["compare", "made.csv", "-m", "gated", option, *(["--json"] if json_too else [])]) == 1
+    captured = capsys.readouterr()
+    assert [line for line in captured.err.splitlines() if line.startswith("poise:")] == captured.err.splitlines()[-1:]
+    assert "No space left" in captured.err and "report in" not in captured.err and "picture in" not in captured.err
+    if json_too:
+        document = json.loads(captured.out)
+        assert document["results"][0]["estimators"][0]["rows"] > 0 and "No space left" in document["errors"][0]["error"]
+    else:
+        assert "gated" in captured.out
+
+
+def _refuse(*_: object, **__: object) -> None:
+    raise OSError(28, "No space left on device")
 
 
 def test_demo_writes_everything(
@@ -106,12 +165,16 @@ def test_demo_writes_everything(
 ) -> None:
     monkeypatch.setattr(sys.modules["poise.cli.demo"], "_DURATION", 6.0)
     monkeypatch.setattr("poise.comparison.available_peers", dict)
-    assert run(["demo", "-o", "shown"]) == 0
-    names = {path.name for path in (folder / "shown").iterdir()}
+    assert run(["demo", "-o", "what's shown"]) == 0
+    names = {path.name for path in (folder / "what's shown").iterdir()}
     made = {f"{name}.{kind}" for name in ("forearm", "phone", "robot") for kind in ("csv", "png", "comparison.png")}
     assert names == made | {"report.html", "table.csv", "comparison.json"}
-    rows = list(csv.DictReader((folder / "shown" / "table.csv").open()))
+    rows = list(csv.DictReader((folder / "what's shown" / "table.csv").open()))
     assert len(rows) == 3 * len(poise.METHODS)
     assert all(float(row["inclination_rmse_deg"]) < 10.0 for row in rows)
+    words = shlex.split(command_in(folder / "what's shown" / "report.html"))
+    assert words[2] == str(Path("what's shown", "forearm.csv")) and words[-1] == str(
+        Path("what's shown", "report.html")
+    )
     assert "Mean RMS error over 3 recordings" in capsys.readouterr().out
     assert run(["demo", "-o", "made.csv"]) == 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -104,6 +104,24 @@ def test_a_planted_disagreement_is_found_and_blamed(
     assert getattr(comparison.pairs, part)[0, i] == pytest.approx(25.0 * np.sqrt(500 / 3000), rel=0.01)
 
 
+def test_seconds_away_are_of_the_rows_beyond_the_limit_not_of_the_stretch(recording: poise.Recording) -> None:
+    quat = turned(recording, 25.0, slice(1000, 1020))
+    for first in range(1080, 1500, 80):  # 0.2 s beyond, 0.6 s within: one stretch
+        quat[first : first + 20] = turned(recording, 25.0, slice(first, first + 20))[first : first + 20]
+    quat[2000:2010] = turned(recording, 25.0, slice(2000, 2010))[2000:2010]  # too short to be told
+    comparison = poise.compare(recording, {}, {"liar": planted(quat, "liar")})
+    [stretch] = comparison.stretches()
+    assert stretch.end - stretch.start == pytest.approx(5.0, abs=0.05)
+    assert comparison.seconds_away("liar") == pytest.approx(7 * 0.2 + 0.1, abs=0.001)
+
+
+def test_a_gap_in_the_stamps_is_not_time_beyond_the_limit() -> None:
+    time = np.array([0.0, 0.01, 0.02, 60.0, 60.01])
+    assert departures.beyond(time, np.array([0.0, 0.0, 0.3, 0.0, 0.3]), 0.1) == pytest.approx(0.02)
+    assert departures.beyond(time[:1], np.array([0.3]), 0.1) == 0.0
+    assert departures.beyond(time[:0], np.empty(0), 0.1) == 0.0
+
+
 def test_with_a_reference_the_same_stretch_is_counted_from_it(recording: poise.Recording) -> None:
     everyone = {name: planted(turned(recording, 25.0, slice(1000, 1500)), name) for name in TRUTHFUL}
     found = poise.compare(recording, {}, everyone).stretches()
@@ -146,6 +164,15 @@ def test_where_there_is_no_majority_it_is_said(recording: poise.Recording, blind
     assert any("10.0 s in all" in note for note in poise.compare(blind, {}, split).notes)
 
 
+@pytest.mark.parametrize(("far", "said"), [((60.0, -60.0), False), ((60.0, -60.0, 90.0), True)])
+def test_half_within_the_limit_is_enough(
+    recording: poise.Recording, blind: poise.Recording, far: tuple[float, ...], said: bool
+) -> None:
+    everyone = {name: truthful(recording)[name] for name in "ab"}
+    everyone |= {f"far{d:g}": planted(turned(recording, d, slice(500, 1500)), f"far{d:g}") for d in far}
+    assert any("fewer than half" in note for note in poise.compare(blind, {}, everyone).notes) is said
+
+
 def test_one_that_fails_is_a_row_with_its_reason(recording: poise.Recording) -> None:
     def broken(_: poise.Recording) -> np.ndarray:
         raise ZeroDivisionError("no luck")
@@ -163,6 +190,10 @@ def test_nothing_usable_is_told_row_by_row() -> None:
     comparison = poise.compare(empty, ["two-stage"], "vqf")
     assert comparison.done == [] and comparison.stretches() == () and comparison.best is None
     assert all(run.failure for run in comparison.runs)
+    table = tables.estimators(comparison)
+    assert not any("consensus" in text for text in (*comparison.notes, table.title, *table.columns))
+    assert [row[-1] for row in table.rows] == [run.failure for run in comparison.runs]
+    assert tables.mean_tables([comparison, comparison]) == []
     json.dumps(comparison.to_dict(), allow_nan=False)
 
 
@@ -181,6 +212,41 @@ def test_what_cannot_be_compared_is_refused(recording: poise.Recording) -> None:
     assert "Unfinished" in poise.compare(recording, {"mine": Unfinished()}).runs[0].failure
 
 
+@pytest.mark.parametrize(
+    "bad",
+    [
+        {"methods": {"mine": poise.TwoStage}},
+        {"methods": poise.TwoStage},
+        {"methods": [poise.TwoStage()]},
+        {"methods": {1: poise.TwoStage()}},
+        {"methods": {"mine": "two-stage"}},
+        {"methods": [1]},
+        {"methods": 5},
+        {"peers": 5},
+        {"peers": [None]},
+        {"peers": {"mine": "vqf"}},
+        {"limit_deg": "5"},
+        {"limit_deg": None},
+        {"limit_deg": True},
+    ],
+)
+def test_what_is_no_estimator_is_refused_in_words(recording: poise.Recording, bad: dict[str, Any]) -> None:
+    with pytest.raises(PoiseError, match="expected"):
+        poise.compare(recording, **({"methods": "tilt"} | bad))
+
+
+def test_a_single_method_or_a_list_of_peers_will_do(recording: poise.Recording) -> None:
+    assert [run.name for run in poise.compare(recording[:200], poise.TwoStage()).runs] == ["two-stage"]
+    assert [run.name for run in poise.compare(recording, Unfinished(), truthful(recording)["a"]).runs] == [
+        "Unfinished",
+        "a",
+    ]
+    assert [run.name for run in poise.compare(recording[:200], "tilt", []).runs] == ["tilt"]
+    pytest.importorskip("vqf")
+    names = [run.name for run in poise.compare(recording[:200], {}, ["vqf-offline", "vqf"]).runs]
+    assert names == ["vqf-offline", "vqf"]
+
+
 def test_a_flag_explains_only_what_it_can(recording: poise.Recording, blind: poise.Recording) -> None:
     assert blind.truth is None
     attitude = poise.Attitude.of(
@@ -197,6 +263,32 @@ def test_a_flag_explains_only_what_it_can(recording: poise.Recording, blind: poi
     told = " ".join(found.reasons)
     assert "counts less (80% of the stretch)" in told and "started anew" in told and "0.5 s before it begins" in told
     assert "magnetometer sample" not in told  # a missing magnetometer does not tilt anything
+
+
+@pytest.mark.parametrize(
+    ("rows", "is_start"),
+    [(slice(0, 300), True), (slice(50, 300), False), (slice(0, 1200), False), (slice(2800, None), False)],
+)
+def test_its_start_is_what_begins_with_the_first_row_and_is_over(
+    recording: poise.Recording, rows: slice, is_start: bool
+) -> None:
+    [found] = poise.compare(recording, {}, {"liar": planted(turned(recording, 25.0, rows), "liar")}).found
+    assert any("its start" in reason for reason in found.reasons) is is_start
+
+
+def test_a_departure_that_is_the_whole_recording_is_not_its_start(recording: poise.Recording) -> None:
+    short = recording[:500]
+    [found] = poise.compare(short, {}, {"liar": planted(turned(short, 25.0, slice(None)), "liar")}).found
+    assert not found.reasons
+
+
+def test_where_no_row_moves_it_is_said(recording: poise.Recording) -> None:
+    still = replace(recording, moving=np.zeros(len(recording), bool))
+    comparison = poise.compare(still, {}, truthful(recording))
+    assert any("no row moves, so none counts" in note for note in comparison.notes)
+    for row in tables.estimators(comparison).rows:
+        assert not any(np.isfinite(cell) for cell in row if isinstance(cell, float)) and row[6] == "-"
+    assert not any("moves" in note for note in poise.compare(recording, {}, truthful(recording)).notes)
 
 
 def test_a_disturbed_field_is_told(recording: poise.Recording) -> None:

@@ -12,8 +12,8 @@ from cyclopts import Parameter
 
 from poise.cli import show
 from poise.cli.options import Reading, UsageError, usage
-from poise.cli.targets import PICTURES, make_room, targets
-from poise.errors import PoiseError
+from poise.cli.targets import PICTURES, check_room, make_room, targets
+from poise.errors import FormatError, PoiseError
 
 if TYPE_CHECKING:
     from poise.comparison import Comparison
@@ -22,11 +22,12 @@ _TOLD = 5  # stretches of a file; --json and --report have them all
 
 
 class Compared(NamedTuple):
-    """A file's comparison, and the picture of it."""
+    """A file's comparison, and the picture of it, or why there is none."""
 
     file: Path
     comparison: Comparison
     picture: Path | None
+    undrawn: str = ""
 
 
 def compare(
@@ -76,21 +77,30 @@ def compare(
             targets(files, None, ".html", (), "--report")  # the same recording twice is a mistake here, too
         if report is not None:
             _check_report(report, [*files, *pictures.values()])
+        for place in (*pictures.values(), *([report] if report is not None else [])):
+            check_room(place)
         done, refused = run(files, estimators, reading, limit, pictures)
     except UsageError as error:
         show.problem(error)
         return 2
+    except FormatError as error:
+        show.problem(error)
+        return 1
+    problems = troubles(done)
+    written = None
     if report is not None and done:
         try:
             write_report(report, done, refused, _command(files, method, with_, limit, reading, report))
+            written = report
         except PoiseError as error:
-            show.problem(error)
-            return 1
+            problems.append({"file": str(report), "error": str(error)})
     if json:
-        show.as_json(as_document(done, refused))
+        show.as_json(as_document(done, [*refused, *problems]))
     elif done:
-        tell(done, report)
-    return 1 if refused else 0
+        tell(done, written)
+    for each in problems:
+        show.problem(each["error"])
+    return 1 if refused or problems else 0
 
 
 def run(
@@ -116,14 +126,31 @@ def run(
             progress=lambda name, share: tell(f"{name} (a first run compiles it)", 0.1 + 0.8 * share),
         )
         if picture := pictures.get(file):
-            from poise.plots import comparison_figure, save_figure
-
             tell("drawing", 0.9)
-            make_room(picture)
-            save_figure(comparison_figure(comparison), picture)
+            try:
+                _draw(comparison, picture)
+            except PoiseError as problem:  # what was compared is told all the same
+                return Compared(file, comparison, None, str(problem))
         return Compared(file, comparison, pictures.get(file))
 
     return show.each(files, work)
+
+
+def troubles(done: Sequence[Compared]) -> list[dict[str, str]]:
+    """What went wrong with files that could be read: no estimator can run on it, or its picture cannot be written."""
+    found = [
+        {"file": str(one.file), "error": f"{one.file}: no estimator gave an attitude"}
+        for one in done
+        if not one.comparison.done
+    ]
+    return found + [{"file": str(one.file), "error": one.undrawn} for one in done if one.undrawn]
+
+
+def _draw(comparison: Comparison, picture: Path) -> None:
+    from poise.plots import comparison_figure, save_figure
+
+    make_room(picture)
+    save_figure(comparison_figure(comparison), picture)
 
 
 def write_report(path: Path, done: Sequence[Compared], refused: Sequence[Mapping[str, str]], command: str) -> None:
@@ -157,7 +184,7 @@ def tell(done: Sequence[Compared], report: Path | None) -> None:
     """The tables, the worst stretches and the notes of every file, then the means."""
     from poise.comparison.tables import estimators, mean_tables, told
 
-    for file, comparison, picture in done:
+    for file, comparison, picture, _ in done:
         table = estimators(comparison)
         show.table(f"{file.name}: {table.title}", table.columns, table.rows)
         for note in comparison.notes:
@@ -200,16 +227,21 @@ def _check_report(report: Path, others: Sequence[Path]) -> None:
         usage(f"--report {report} is one of the recordings or pictures; nothing is written over them")
 
 
+def again(files: Sequence[Path], options: Sequence[tuple[str, object]]) -> str:
+    """The command, as a shell takes it, that compares *files* with *options* again."""
+    words = ["poise", "compare", *(f"./{f}" if str(f).startswith("-") else str(f) for f in files)]
+    for name, value in options:
+        words += [f"{name}={value}"] if str(value).startswith("-") else [name, str(value)]
+    return shlex.join(words)
+
+
 def _command(
     files: Sequence[Path], method: Sequence[str], with_: str, limit: float, reading: Reading, report: Path
 ) -> str:
     """The command that makes the same report."""
-    words = ["poise", "compare", *(f"./{f}" if str(f).startswith("-") else str(f) for f in files)]
-    for name in method:
-        words += ["--method", name]
-    words += ["--with", with_] if with_ else []
-    words += ["--limit", f"{limit:g}"] if limit != 10.0 else []
-    for option in fields(reading):
-        value = getattr(reading, option.name)
-        words += [f"--{option.name}", str(value)] if value is not None else []
-    return shlex.join([*words, "--report", str(report)])
+    options: list[tuple[str, object]] = [("--method", name) for name in method]
+    options += [("--with", with_)] if with_ else []
+    options += [("--limit", limit)] if limit != 10.0 else []
+    found = ((f"--{option.name}", getattr(reading, option.name)) for option in fields(reading))
+    options += [(name, value) for name, value in found if value is not None]
+    return again(files, [*options, ("--report", report)])

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from poise.cli import show
-from poise.cli.compare import Compared, as_document, run, tell, write_report
+from poise.cli.compare import Compared, again, as_document, run, tell, troubles, write_report
 from poise.cli.options import Reading
 from poise.errors import PoiseError
 
@@ -40,12 +40,15 @@ def demo(*, output: Annotated[Path, Parameter(name=["--output", "-o"])] = Path("
         peers = available_peers()
         pictures = {file: file.with_suffix(".comparison.png") for file in files}
         done, refused = run(files, (methods_named(), peers), Reading(), LIMIT_DEG, pictures)
-        if refused:
+        for each in troubles(done):
+            show.problem(each["error"])
+        if refused or troubles(done):
             return 1
         for one in done:
             _draw(one)
-        words = ["poise compare", *map(str, files), *(["--with", ",".join(peers)] if peers else [])]
-        write_report(output / "report.html", done, [], " ".join([*words, "--report", str(output / "report.html")]))
+        report = output / "report.html"
+        options = [("--with", ",".join(peers))] if peers else []
+        write_report(report, done, [], again(files, [*options, ("--report", report)]))
         _save(
             output / "comparison.json", json.dumps(as_document(done, []), indent=2, ensure_ascii=False, allow_nan=False)
         )
@@ -53,7 +56,7 @@ def demo(*, output: Annotated[Path, Parameter(name=["--output", "-o"])] = Path("
     except PoiseError as error:
         show.problem(error)
         return 1
-    tell(done, output / "report.html")
+    tell(done, report)
     show.note(f"recordings, pictures, table.csv and comparison.json in {output}")
     return 0
 

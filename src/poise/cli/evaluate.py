@@ -102,6 +102,8 @@ def _evaluated(
     against = recording if recording is not None else truth
     assert against is not None  # one of the two: an attitude without a reference was refused above
     errors = measure(attitude, against)
+    if recording is not None and recording.moving is not None and not recording.moving.any():
+        raise RecordingError("no row moves, so none counts")
     if not errors.counted.any():
         raise RecordingError("no row has both an attitude and a reference; do their clocks agree?")
     if plot:

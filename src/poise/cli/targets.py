@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 from pathlib import Path
 
 from poise.cli.options import usage
@@ -18,6 +19,20 @@ def make_room(place: Path) -> None:
         raise FormatError(f"{place}: cannot be written: {place.parent} is a file, not a folder") from None
     except OSError as problem:
         raise FormatError(f"{place}: cannot be written: {problem.strerror or problem}") from None
+
+
+def check_room(place: Path) -> None:
+    """Raises :class:`FormatError` where *place* cannot be written, before any work is done for it; makes nothing."""
+    folder = place.parent
+    while not folder.exists() and folder != folder.parent:
+        folder = folder.parent
+    if not folder.is_dir():
+        raise FormatError(f"{place}: cannot be written: {folder} is a file, not a folder")
+    try:
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as problem:
+        raise FormatError(f"{place}: cannot be written: {folder}: {problem.strerror or problem}") from None
 
 
 def targets(

@@ -13,19 +13,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
+from numbers import Real
 from typing import Any, Literal
 
 import numpy as np
 
 from poise.comparison.agreement import aligned, consensus
+from poise.comparison.choice import as_methods, as_peers, available_peers, methods_named
 from poise.comparison.departures import Stretch
 from poise.comparison.result import Comparison, Heading, Pairs, Run
 from poise.data.attitude import Attitude
 from poise.data.recording import Recording
 from poise.errors import MethodError, PoiseError, RecordingError
-from poise.estimators import METHODS
 from poise.evaluation import evaluate
-from poise.peers import PEERS, Peer, chosen, installed
+from poise.peers import Peer, installed
 
 __all__ = [
     "LIMIT_DEG",
@@ -44,28 +45,26 @@ LIMIT_DEG = 10.0
 
 def compare(
     recording: Recording,
-    methods: Mapping[str, Any] | Iterable[str] | None = None,
-    peers: Mapping[str, Peer] | str = "",
+    methods: Any = None,
+    peers: Mapping[str, Peer] | Iterable[str] | Peer | str = "",
     *,
     limit_deg: float = LIMIT_DEG,
     progress: Callable[[str, float], None] | None = None,
 ) -> Comparison:
     """Every method and peer on *recording*, side by side.
 
-    *methods* are names of :data:`poise.METHODS` or methods by a name of your own; all with their defaults if not given.
-    *peers* as :func:`poise.peers.chosen` understands them, "vqf,imufusion,ahrs". *progress* is called with the name of
+    *methods* are names of :data:`poise.METHODS`, methods by a name of your own, or a single one of either; all with their
+    defaults if not given. *peers* as :func:`poise.peers.chosen` understands them, "vqf,imufusion,ahrs", or a list of such
+    names, or peers by name. *progress* is called with the name of
     the estimator that is run and the share done. An estimator that cannot run is a run with its reason, and an attitude
     without a row is one; raises :class:`RecordingError` only for a recording without rows, and for names not known
     :class:`PoiseError`.
     """
     if not isinstance(recording, Recording):
         raise RecordingError(f"expected a Recording to compare on, found {type(recording).__name__}")
-    if not np.isfinite(limit_deg) or not 0.0 < limit_deg <= 180.0:
+    if not isinstance(limit_deg, Real) or isinstance(limit_deg, bool) or not 0.0 < limit_deg <= 180.0:
         raise RecordingError(f"limit_deg: expected degrees above 0, up to 180, found {limit_deg!r}")
-    todo: dict[str, Any] = dict(methods) if isinstance(methods, Mapping) else methods_named(methods)
-    others: dict[str, Peer] = {}
-    if peers:
-        others = chosen(peers) if isinstance(peers, str) else dict(peers)
+    todo, others = as_methods(methods), as_peers(peers)
     if twice := todo.keys() & others.keys():
         raise MethodError(f"{', '.join(sorted(twice))}: a method and a peer of the same name; rename one")
     todo |= others
@@ -79,20 +78,6 @@ def compare(
             progress(name, i / len(todo))
         runs.append(_run(name, estimator, recording))
     return _judged(recording, runs, limit_deg)
-
-
-def methods_named(names: Iterable[str] | None = None) -> dict[str, Any]:
-    """Methods with their defaults, by the names of :data:`poise.METHODS`; all of them if no names are given."""
-    wanted = list(METHODS if names is None else [names] if isinstance(names, str) else names)
-    for name in wanted:
-        if name not in METHODS:
-            raise MethodError(f"no method {name!r}; there are {', '.join(METHODS)}")
-    return {name: METHODS[name]() for name in wanted}
-
-
-def available_peers() -> dict[str, Peer]:
-    """The peers whose package is installed."""
-    return {name: peer for name, peer in PEERS.items() if installed(peer.package) is not None}
 
 
 def _run(name: str, estimator: Any, recording: Recording) -> Run:
@@ -153,13 +138,15 @@ def _first(runs: Iterable[Run], heading: Heading) -> Attitude | None:
 def _notes(recording: Recording, against: str, runs: list[Run], limit_deg: float) -> tuple[str, ...]:
     notes = []
     done = [run for run in runs if run.attitude is not None]
+    if not done:
+        return ("no estimator gave an attitude: there is nothing to compare",)
     if against == "consensus":
         notes.append("no reference: distances are from the estimators' consensus, which may be wrong as a whole")
         if len(done) == 1:
             notes.append("one estimator alone has nothing to be compared with")
         elif len(done) == 2:
             notes.append("two estimators: each is half of their distance from the middle, and neither can be blamed")
-        elif done and (split := _without_majority(recording, done, limit_deg)) > 0.5:
+        elif (split := _without_majority(recording, done, limit_deg)) > 0.5:
             notes.append(
                 f"for {split:.1f} s in all fewer than half of them are within {limit_deg:g}° of the consensus: there it says "
                 "nothing"
@@ -171,6 +158,8 @@ def _notes(recording: Recording, against: str, runs: list[Run], limit_deg: float
     if none := [run.name for run in done if run.heading == "none"]:
         notes.append(f"{', '.join(none)}: no heading of its own, judged by inclination only")
     truth = recording.truth
+    if against == "reference" and recording.moving is not None and not recording.moving.any():
+        notes.append("no row moves, so none counts: there are no errors to tell; departures are told of all rows")
     if against == "reference" and truth is not None:
         own = {run.attitude.heading_reference for run in done if run.attitude is not None and run.heading == "own"}
         if truth.heading_reference == "true" and "magnetic" in own:
@@ -181,12 +170,12 @@ def _notes(recording: Recording, against: str, runs: list[Run], limit_deg: float
 
 
 def _without_majority(recording: Recording, runs: list[Run], limit_deg: float) -> float:
-    """s for which no more than half of the estimators with an attitude are near the consensus."""
+    """s for which fewer than half of the estimators with an attitude are near the consensus."""
     judged = np.stack([run.judged for run in runs])
     with np.errstate(invalid="ignore"):
         near = np.sum(np.degrees(judged) <= limit_deg, axis=0)
     there = np.sum(np.isfinite(judged), axis=0)
-    split = (there > 0) & (2 * near <= there)
+    split = (there > 0) & (2 * near < there)
     return float(split.sum() / recording.rate_hz) if recording.rate_hz > 0 else 0.0
 
 

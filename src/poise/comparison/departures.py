@@ -129,12 +129,12 @@ def _told(
         inclination_deg=inclination,
         others_within=sum(near),
         others=len(others),
-        reasons=_reasons(clock, one, whole, part),
+        reasons=_reasons(clock, one, whole, part, limit),
         sensors=sensors.remarks(whole) or sensors.before(clock, whole),
     )
 
 
-def _reasons(clock: Floats, one: Judged, rows: Rows, part: Part) -> tuple[str, ...]:
+def _reasons(clock: Floats, one: Judged, rows: Rows, part: Part, limit: float) -> tuple[str, ...]:
     """Sentences of the flags that explain a departure: its events as it begins, its states while it lasts."""
     flags = one.attitude.flags
     start, end = clock[rows[0]], clock[rows[-1]]
@@ -154,7 +154,9 @@ def _reasons(clock: Floats, one: Judged, rows: Rows, part: Part) -> tuple[str, .
         if inside >= _SHARE and inside >= _LIFT * overall:
             found.append(f"{SENTENCES[flag]} ({inside:.0%} of the stretch)")
     known = np.flatnonzero(np.isfinite(one.angle))
-    if len(known) and start - clock[known[0]] < BRIDGE and end - clock[known[0]] < SETTLING:
+    after = known[known > rows[-1]]
+    over = len(after) > 0 and one.angle[after[0]] <= limit
+    if over and rows[0] == known[0] and end - start < SETTLING:
         found.append("its start: it is over once the filter has settled")
     return tuple(found)
 
@@ -243,6 +245,15 @@ def worst(time: Floats, angle: Floats, seconds: float = 5.0) -> dict[str, Any] |
     best = int(np.argmax(means))
     start = first[best]
     return {"start": float(stamps[start]), "end": float(stamps[after[start] - 1]), "mean_deg": float(means[best])}
+
+
+def beyond(time: Floats, angle: Floats, limit: float) -> float:
+    """s in all that *angle* (n,) is above *limit*, both rad: each row lasts until the next stamp, over a gap as usual."""
+    clock = _rising(time)
+    steps = np.diff(clock)
+    usual = float(np.median(steps[steps > 0])) if (steps > 0).any() else 0.0
+    lasting = np.append(np.where(steps > max(BRIDGE, usual), usual, steps), usual)[: len(clock)]
+    return float(np.sum(lasting[angle > limit]))
 
 
 def settled(time: Floats, angle: Floats, limit: float, seconds: float = 1.0) -> float | None:

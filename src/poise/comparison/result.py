@@ -11,7 +11,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from poise.comparison.departures import Judged, Stretch, settled, stretches, worst
+from poise.comparison.departures import Judged, Stretch, beyond, settled, stretches, worst
 from poise.data.attitude import Attitude
 from poise.data.recording import Recording
 from poise.evaluation import Errors, evaluate
@@ -133,8 +133,15 @@ class Comparison:
         return Pairs(tuple(run.name for run in runs), apart[0], apart[1])
 
     def seconds_away(self, estimator: str) -> float:
-        """s in all that an estimator is further than the limit from the reference or the consensus."""
-        return float(sum(s.end - s.start for s in self.stretches(estimator)))
+        """s in all that an estimator is further than the limit from the reference or the consensus; 0 if it has no errors.
+
+        The time of the rows themselves: without what a stretch bridges, with what is too short to be one.
+        """
+        return sum(
+            beyond(r.errors.time, r.judged, radians(self.limit_deg))
+            for r in self.done
+            if r.name == estimator and r.errors
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the samples, as plain values; figures that do not exist are None."""

@@ -22,6 +22,10 @@ class Table(NamedTuple):
 def estimators(comparison: Comparison) -> Table:
     """A row for every estimator: its errors, or its distances from the consensus, or why it has none."""
     limit = f"s beyond {comparison.limit_deg:g}°"
+    if not comparison.done:
+        return Table(
+            "No estimator gave an attitude", ("estimator", "remark"), [[r.name, r.failure] for r in comparison.runs]
+        )
     lines = {line["name"]: line for line in comparison.to_dict()["estimators"]}
     if comparison.against == "reference":
         columns = (
@@ -58,7 +62,7 @@ def mean_tables(comparisons: Sequence[Comparison]) -> list[Table]:
     tables = []
     for against, what in (("reference", "error"), ("consensus", "distance from the consensus")):
         rows = [row for row in means(comparisons) if row["against"] == against and row["of"] > 1]
-        if rows:
+        if any(row["files"] for row in rows):
             cells = [
                 [r["name"], *(_NAN if r[part] is None else r[part] for part in _PARTS), f"{r['files']} of {r['of']}"]
                 for r in rows
@@ -103,11 +107,14 @@ def _without_reference(run: Run, line: dict[str, Any], zero: float) -> list[Any]
 
 
 def _shared(run: Run, line: dict[str, Any], zero: float, *more: float | None) -> list[Any]:
-    worst = line["worst_5s"]
+    counts = run.errors is not None and bool(
+        run.errors.counted.any()
+    )  # figures of rows that do not count would mislead
+    worst = line["worst_5s"] if counts else None
     return [
         f"{worst['mean_deg']:.1f} at {round(worst['start'] - zero)} s" if worst else "-",
-        *(_NAN if value is None else value for value in more),
-        _NAN if line["seconds_away"] is None else line["seconds_away"],
+        *(value if counts and value is not None else _NAN for value in more),
+        line["seconds_away"] if counts else _NAN,
         "-" if line["valid"] is None else f"{line['valid']:.1%}",
         _remark(run),
     ]

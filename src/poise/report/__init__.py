@@ -118,6 +118,8 @@ def _sensor(comparison: Comparison, sensor: str) -> str:
 
 def _reference(comparison: Comparison) -> str:
     truth = comparison.recording.truth
+    if truth is None and not comparison.done:
+        return "none"
     if comparison.against == "consensus" or truth is None:
         return "none; the estimators' consensus takes its place"
     known = float(np.mean(np.isfinite(truth.quat).all(axis=1)))
