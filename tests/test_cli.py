@@ -6,6 +6,7 @@ import json
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ import poise
 from data_files import data_path
 from poise.cli import run
 from poise.formats import read_attitude
+from poise.math import arrays
 from poise.simulation import Sensor, forearm, measure
 
 
@@ -109,6 +111,62 @@ def test_evaluate_against_the_file_and_beside_it(folder: Path, capsys: pytest.Ca
     assert told["method"] == "SelfCalibrating"
     assert told["compared"] + told["missing"] <= told["rows"]
     assert beside["heading"] == pytest.approx(inside["heading"], abs=0.3)
+
+
+@pytest.mark.parametrize("method", ["tilt", "gated"])
+def test_a_method_without_heading_is_judged_by_inclination(
+    method: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    made = measure(forearm(8.0), Sensor(), seed=1)
+    assert made.truth is not None
+    half = np.array([np.cos(np.pi / 2), 0.0, 0.0, np.sin(np.pi / 2)])  # a reference that heads the other way
+    turned = poise.Attitude.of(made.time, arrays.multiply(half, made.truth.quat))
+    poise.write(replace(made, truth=turned), "made.csv")
+    assert run(["evaluate", "made.csv", "-m", method, "--json"]) == 0
+    result = json.loads(capsys.readouterr().out)["results"][0]
+    assert result["judged_by"] == "inclination" and not result["diverged"]
+    assert result["rmse_deg"]["total"] > 90 > result["rmse_deg"]["inclination"]
+    assert run(["evaluate", "made.csv", "-m", method]) == 0
+    told = capsys.readouterr().out
+    assert f"{result['rmse_deg']['inclination']:.2f}" in told and "judged by" in told
+    assert f"{result['rmse_deg']['total']:.2f}" not in told
+    assert run(["estimate", "made.csv", "-m", method, "-o", "a.parquet"]) == 0
+    assert "inclination error °" in (told := capsys.readouterr().out)
+    assert f"{result['rmse_deg']['inclination']:.2f}" in told
+    assert run(["estimate", "made.csv", "-m", "two-stage", "-o", "b.parquet", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["results"][0]["judged_by"] == "total"
+
+
+@pytest.mark.parametrize("name", ["[1].csv", '["made.csv"].csv', "[red]x.csv", "{a}.csv"])
+def test_brackets_are_part_of_a_name(name: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "made.csv").rename(folder / name)
+    out = f"{name[:-4]}.png.csv"
+    assert run(["sniff", name]) == 0
+    assert name in capsys.readouterr().out
+    assert run(["estimate", name, "-o", out, "-m", "gated"]) == 0
+    told = capsys.readouterr().out
+    assert name in told and out in told
+    assert run(["evaluate", name, "-m", "gated"]) == 0
+    assert name in capsys.readouterr().out
+    assert run(["estimate", name, "-o", "[/b].csv", "-m", "gated"]) == 0
+    assert "[/b].csv" in capsys.readouterr().out
+    assert run(["plot", name, "-m", "gated"]) == 0
+    assert f"{name[:-4]}.png" in capsys.readouterr().out
+    refused(capsys, "compare", "[2].csv", code=1, says=r"\[2\]\.csv")
+
+
+def test_methods_say_where_heading_comes_from_and_which_is_the_default(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["methods", "--json"]) == 0
+    listed = {entry["method"]: entry for entry in json.loads(capsys.readouterr().out)}
+    assert (listed["tilt"]["heading"], listed["gated"]["heading"]) == ("none", "gyroscope")
+    assert {name for name, entry in listed.items() if entry["heading"] == "magnetometer"} == set(listed) - {
+        "tilt",
+        "gated",
+    }
+    assert [name for name, entry in listed.items() if entry["default"]] == ["self-calibrating"]
+    assert run(["methods"]) == 0
+    assert "self-calibrating (default)" in capsys.readouterr().out
 
 
 def test_methods_lists_and_explains(capsys: pytest.CaptureFixture[str]) -> None:

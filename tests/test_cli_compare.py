@@ -168,7 +168,7 @@ def test_demo_writes_everything(
     assert run(["demo", "-o", "what's shown"]) == 0
     names = {path.name for path in (folder / "what's shown").iterdir()}
     made = {f"{name}.{kind}" for name in ("forearm", "phone", "robot") for kind in ("csv", "png", "comparison.png")}
-    assert names == made | {"report.html", "table.csv", "comparison.json"}
+    assert names == made | {"report.html", "table.csv", "comparison.json", ".poise-demo"}
     rows = list(csv.DictReader((folder / "what's shown" / "table.csv").open()))
     assert len(rows) == 3 * len(poise.METHODS)
     assert all(float(row["inclination_rmse_deg"]) < 10.0 for row in rows)
@@ -178,3 +178,28 @@ def test_demo_writes_everything(
     )
     assert "Mean RMS error over 3 recordings" in capsys.readouterr().out
     assert run(["demo", "-o", "made.csv"]) == 1
+
+
+def test_demo_writes_over_nothing_but_its_own(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(sys.modules["poise.cli.demo"], "_DURATION", 6.0)
+    monkeypatch.setattr("poise.comparison.available_peers", dict)
+    monkeypatch.setattr("poise.comparison.methods_named", lambda: {"gated": poise.Gated()})
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "phone.csv").write_text("years of work")
+    (tmp_path / "report.html").write_text("thesis")
+    assert run(["demo", "-o", "."]) == 1
+    told = capsys.readouterr().err
+    assert "phone.csv, report.html" in told and "--output" in told
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {
+        "phone.csv": "years of work",
+        "report.html": "thesis",
+    }
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "notes.txt").write_text("mine")
+    written: list[set[str]] = []
+    for _ in range(2):
+        assert run(["demo", "-o", "other"]) == 0
+        written.append({path.name for path in (tmp_path / "other").iterdir()})
+    assert written[0] == written[1] == {*sys.modules["poise.cli.demo"]._FILES, ".poise-demo", "notes.txt"}

@@ -15,7 +15,7 @@ from data_files import data_path
 from made_bags import ACC, FIELD, GYR, IMU, MAG, QUAT, ROWS, START, TIME, VECTOR, imu, mag, save, text
 from poise.cli import run
 from poise.errors import FormatError
-from poise.formats import bag_library, bag_stamps, bag_topics, read, read_attitude, sniff, write
+from poise.formats import bag_library, bag_stamps, bag_topics, read, read_attitude, sniff, write, wrote_attitude
 from poise.formats.bag_topics import Topic, Unclear
 
 KINDS = ["bag", "mcap", "sqlite3", "bare-mcap", "bare-sqlite3"]
@@ -283,6 +283,30 @@ def test_the_command_writes_bags(
         assert run(["estimate", "in.bag", *arguments]) == 2
         assert says in capsys.readouterr().err
     assert {place.name for place in tmp_path.iterdir()} == {"in.bag", "out.mcap", "out"}
+
+
+@pytest.mark.parametrize("name", ["out.bag", "out.mcap", "in.attitude"])
+def test_a_bag_that_poise_wrote_is_the_attitude_that_it_holds(
+    tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    save(tmp_path / "in.bag", [*imu(quat=QUAT), *mag()])
+    recording = read("in.bag")
+    attitude = poise.Attitude.of(TIME, np.roll(QUAT, 3, axis=1))  # no method would say so
+    write(attitude, name, "ros2" if name == "in.attitude" else None, recording=recording)
+    write(attitude, "reference.parquet")
+    assert wrote_attitude(name) and not wrote_attitude("in.bag") and not wrote_attitude("reference.parquet")
+    assert run(["evaluate", name, "--reference", "reference.parquet", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["results"][0]["rmse_deg"]["total"] == pytest.approx(0.0, abs=1e-6)
+    assert run(["evaluate", name]) == 1
+    assert "is an attitude" in capsys.readouterr().err
+    assert run(["plot", name, "-o", "a.png", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["results"][0]["drawn"] == "attitude"
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_bag_by_others_stays_a_recording(tmp_path: Path, kind: str) -> None:
+    assert not wrote_attitude(save(tmp_path / "a", imu("/imu/data", quat=QUAT), kind))
 
 
 def test_without_rosbags_the_extra_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,10 +73,14 @@ class Errors:
     @property
     def diverged(self) -> bool:
         """Whether the total error stays above 90° for 5 s somewhere."""
+        return self.diverged_by("total")
+
+    def diverged_by(self, kind: Literal["total", "heading", "inclination"]) -> bool:
+        """Whether the error of that *kind* stays above 90° for 5 s somewhere."""
         stamped = np.isfinite(self.time)
-        time, total = self.time[stamped], self.total[stamped]
-        good = np.flatnonzero(~(total > DIVERGED_ANGLE))  # NaN ends a stretch
-        edges = np.concatenate([[-1], good, [len(total)]])
+        time, error = self.time[stamped], getattr(self, kind)[stamped]
+        good = np.flatnonzero(~(error > DIVERGED_ANGLE))  # NaN ends a stretch
+        edges = np.concatenate([[-1], good, [len(error)]])
         stretches = [time[b - 1] - time[a + 1] for a, b in zip(edges, edges[1:], strict=False) if b - a > 2]
         return bool(stretches) and float(max(stretches)) >= DIVERGED_TIME
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-from cyclopts import App, CycloptsError
+from cyclopts import App, CycloptsError, Parameter
 
 from poise.cli.compare import compare
 from poise.cli.demo import demo
@@ -24,6 +24,7 @@ Start with your own file: `poise sniff walk.csv` says what poise makes of it, `p
 writes the attitude and a picture. No file at hand?
 `poise demo` makes three and compares every method on them. Every command explains itself with `--help`.""",
     help_format="markdown",
+    default_parameter=Parameter(json_list=False, json_dict=False),  # "[1].csv" is a name
     version=lambda: f"poise {_version()}",
 )
 app.command(estimate)

@@ -14,12 +14,16 @@ from cyclopts import Parameter
 from poise.cli import show
 from poise.cli.compare import Compared, again, as_document, run, tell, troubles, write_report
 from poise.cli.options import Reading
-from poise.errors import PoiseError
+from poise.errors import FormatError, PoiseError
 
 if TYPE_CHECKING:
     from poise.data.recording import Recording
 
 _DURATION = 60.0  # s
+_MOTIONS = ("forearm", "phone", "robot")
+_RESULTS = ("report.html", "comparison.json", "table.csv")
+_FILES = (*(f"{name}{end}" for name in _MOTIONS for end in (".csv", ".png", ".comparison.png")), *_RESULTS)
+_MARK = ".poise-demo"  # in a folder whose _FILES are the demo's own
 
 
 def demo(*, output: Annotated[Path, Parameter(name=["--output", "-o"])] = Path("poise-demo")) -> int:
@@ -31,11 +35,12 @@ def demo(*, output: Annotated[Path, Parameter(name=["--output", "-o"])] = Path("
     Parameters
     ----------
     output
-        The folder to write into.
+        The folder to write into. Files that are there already are written over only where an earlier demo wrote them.
     """
     from poise.comparison import LIMIT_DEG, available_peers, methods_named
 
     try:
+        _claim(output)
         files = [_write(recording, output) for recording in _made()]
         peers = available_peers()
         pictures = {file: file.with_suffix(".comparison.png") for file in files}
@@ -62,11 +67,28 @@ def demo(*, output: Annotated[Path, Parameter(name=["--output", "-o"])] = Path("
 
 
 def _made() -> list[Recording]:
-    from poise.simulation import Sensor, forearm, measure, phone, robot
+    from poise import simulation
 
-    return [
-        measure(motion(_DURATION, seed=1), Sensor(), seed=1, name=motion.__name__) for motion in (forearm, phone, robot)
-    ]
+    motions = (getattr(simulation, name) for name in _MOTIONS)
+    sensor = simulation.Sensor()
+    return [simulation.measure(each(_DURATION, seed=1), sensor, seed=1, name=each.__name__) for each in motions]
+
+
+def _claim(folder: Path) -> None:
+    """Mark *folder* as the demo's; raises :class:`FormatError` where somebody else's files are in the way."""
+    from poise.cli.targets import make_room
+    from poise.formats.names import listed
+
+    mark = folder / _MARK
+    make_room(mark)
+    if mark.is_file():
+        return
+    if found := [name for name in _FILES if (folder / name).exists()]:
+        raise FormatError(
+            f"{folder}: holds {listed(found, len(_FILES))}, which no demo is known to have written; "
+            "nothing is written over them: move them away, or name another folder with --output"
+        )
+    _save(mark, "poise demo writes over its files in this folder:\n" + "".join(f"{name}\n" for name in _FILES))
 
 
 def _write(recording: Recording, folder: Path) -> Path:

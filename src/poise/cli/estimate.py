@@ -104,6 +104,7 @@ def _finished(
     tell: Callable[[str, float], None],
 ) -> dict[str, Any]:
     """Write the attitude and its picture; the line of the summary."""
+    from poise.estimators import judged_by
     from poise.evaluation import evaluate
     from poise.formats import write
 
@@ -128,13 +129,16 @@ def _finished(
         "heading": attitude.heading_reference,
         "frame": attitude.frame,
         "error_deg": errors.rmse_deg()._asdict() if errors else None,
+        "judged_by": judged_by(attitude.provenance.method) if errors else None,
         "learned": attitude.learned,
         "notes": list(recording.notes),
     }
 
 
 def _report(results: list[dict[str, Any]], method: str) -> None:
-    with_truth = any(result["error_deg"] for result in results)
+    from poise.estimators import judged_by
+
+    judged, with_truth = judged_by(method), any(result["error_deg"] for result in results)
     columns = ["file", "s", "Hz", "rows", "valid", "heading", "written to"]
     rows = []
     for result in results:
@@ -148,9 +152,9 @@ def _report(results: list[dict[str, Any]], method: str) -> None:
             result["output"],
         ]
         if with_truth:
-            row.append(result["error_deg"]["total"] if result["error_deg"] else float("nan"))
+            row.append(result["error_deg"][judged] if result["error_deg"] else float("nan"))
         rows.append(row)
-    show.table(f"{method}: attitudes", columns + ["error °"] * with_truth, rows)
+    show.table(f"{method}: attitudes", columns + [f"{judged} error °"] * with_truth, rows)
     for result in results:
         if not result["valid"] >= _WORTH_SAYING:
             show.note(

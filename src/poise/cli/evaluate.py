@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -32,8 +33,9 @@ def evaluate(
 ) -> int:
     """Compare attitudes with a reference, by the error definition of the BROAD benchmark.
 
-    Each FILE is a recording, which is estimated first, or an attitude that poise wrote. The reference is in the recording
-    (as in the benchmark's files) or in --reference. RMSE over the moving rows, in degrees, nothing aligned first.
+    Each FILE is a recording, which is estimated first, or an attitude that poise wrote (in a ROS bag too). The reference
+    is in the recording (as in the benchmark's files) or in --reference. RMSE over the moving rows, in
+    degrees, nothing aligned first. A method without a heading of its own (tilt, gated) is judged by its inclination.
 
     Examples: `poise evaluate trials/*.mat -m adaptive-gain`; `poise evaluate walk.attitude.parquet --reference mocap.tum`
 
@@ -79,24 +81,20 @@ def _evaluated(
     running: Running,
     tell: Callable[[str, float], None],
 ) -> dict[str, Any]:
+    from poise.data.attitude import Attitude
+    from poise.estimators import judged_by
     from poise.evaluation import evaluate as measure
-    from poise.formats import read_attitude
 
     tell("reading", 0.0)
     truth = None if reference is None else _reference(reference, reading)
+    found = reading.read_either(file)
     recording: Recording | None = None
-    try:
-        recording = reading.read(file)
-    except FormatError as no_recording:
-        try:
-            attitude = read_attitude(file)
-        except FormatError:
-            raise no_recording from None
+    if isinstance(found, Attitude):
+        attitude = found
         if truth is None:
-            raise RecordingError("is an attitude; give what to compare it with: --reference FILE") from None
+            raise RecordingError("is an attitude; give what to compare it with: --reference FILE")
     else:
-        if truth is not None:
-            recording = replace(recording, truth=truth.resample(recording.time))
+        recording = found if truth is None else replace(found, truth=truth.resample(found.time))
         tell("estimating (a first run compiles the method)", 0.3)
         attitude = running.estimate(recording)
     against = recording if recording is not None else truth
@@ -110,15 +108,17 @@ def _evaluated(
         from poise.plots import attitude_figure, save_figure
 
         save_figure(attitude_figure(attitude, recording, errors, title=file.stem), plot)
+    judged = judged_by(attitude.provenance.method)
     return {
         "file": str(file),
         "method": attitude.provenance.method,
+        "judged_by": judged,
         "rmse_deg": errors.rmse_deg()._asdict(),
         "table_deg": errors.table(),
         "rows": len(attitude),
         "compared": int(errors.counted.sum()),
         "missing": errors.missing,
-        "diverged": errors.diverged,
+        "diverged": errors.diverged_by(judged),
     }
 
 
@@ -142,21 +142,36 @@ def _mean(results: list[dict[str, Any]]) -> dict[str, float]:
     return {kind: sum(r["rmse_deg"][kind] for r in results) / len(results) for kind in _KINDS} if results else {}
 
 
+def _told(result: dict[str, Any]) -> dict[str, float]:
+    """The RMSE that the table shows: total and heading only of a method that has a heading."""
+    shown = _KINDS if result["judged_by"] == "total" else ("inclination",)
+    return {kind: result["rmse_deg"][kind] if kind in shown else math.nan for kind in _KINDS}
+
+
+def _over(values: list[float]) -> float:
+    """The mean of the values that are there."""
+    known = [value for value in values if not math.isnan(value)]
+    return sum(known) / len(known) if known else math.nan
+
+
 def _report(results: list[dict[str, Any]]) -> None:
+    told = [_told(result) for result in results]
     rows = [
         [
             Path(result["file"]).name,
             result["method"],
-            *(result["rmse_deg"][kind] for kind in _KINDS),
-            result["table_deg"]["total"]["p95"],
-            result["table_deg"]["total"]["max"],
+            result["judged_by"],
+            *figures.values(),
+            result["table_deg"][result["judged_by"]]["p95"],
+            result["table_deg"][result["judged_by"]]["max"],
             f"{result['compared']} of {result['rows']}",
             "yes" if result["diverged"] else "no",
         ]
-        for result in results
+        for result, figures in zip(results, told, strict=True)
     ]
-    columns = ["file", "method", *_KINDS, "total p95", "total max", "rows compared", "diverged"]
-    footer = ["mean", "", *_mean(results).values(), "", "", "", ""] if len(results) > 1 else None
+    columns = ["file", "method", "judged by", *_KINDS, "its p95", "its max", "rows compared", "diverged"]
+    means = [_over([figures[kind] for figures in told]) for kind in _KINDS]
+    footer = ["mean", "", "", *means, "", "", "", ""] if len(results) > 1 else None
     show.table("RMSE in degrees", columns, rows, footer)
     for result in results:
         if result["missing"]:

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from poise.cli import show
+from poise.cli.options import Running
 
 
 def methods(name: str | None = None, /, *, json: Annotated[bool, Parameter(negative="")] = False) -> int:
@@ -33,7 +34,8 @@ def methods(name: str | None = None, /, *, json: Annotated[bool, Parameter(negat
             "method": each,
             "class": METHODS[each].__name__,
             "what": _first_line(METHODS[each]),
-            "heading": "magnetometer" if "declination" in METHODS[each]._fields else "gyroscope",
+            "heading": _heading(METHODS[each]),
+            "default": each == Running.method,
             "parameters": [_row(parameter) for parameter in parameters(METHODS[each])],
         }
         for each in chosen
@@ -42,13 +44,23 @@ def methods(name: str | None = None, /, *, json: Annotated[bool, Parameter(negat
         show.as_json(found)
     elif name is None:
         columns = ["method", "class", "heading from", "what it is"]
-        show.table("", columns, [[f["method"], f["class"], f["heading"], f["what"]] for f in found])
+        show.table("", columns, [[_named(f), f["class"], f["heading"], f["what"]] for f in found])
     else:
         print(f"{name} ({found[0]['class']}): {found[0]['what']}\n")
         print(_source(METHODS[name]) + "\n")
         rows = [[p["name"], p["default"], p["unit"], p["meaning"]] for p in found[0]["parameters"]]
         show.table("parameters, as in --set NAME=VALUE", ["name", "default", "unit", "meaning"], rows)
     return 0
+
+
+def _named(found: dict[str, Any]) -> str:
+    return f"{found['method']} (default)" if found["default"] else str(found["method"])
+
+
+def _heading(method: Any) -> str:
+    if "declination" in method._fields:
+        return "magnetometer"
+    return "none" if getattr(method(), "no_heading", False) else "gyroscope"
 
 
 def _row(parameter: Any) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 from cyclopts import Group, Parameter
 
-from poise.errors import PoiseError
+from poise.errors import FormatError, PoiseError
 
 if TYPE_CHECKING:
     from poise.data.attitude import Attitude
@@ -63,6 +63,20 @@ class Reading:
 
         recording = read(path, **self.as_arguments())
         return recording.remap(self.remap) if self.remap else recording
+
+    def read_either(self, path: Path) -> Recording | Attitude:
+        """The recording in *path*, or the attitude: what poise wrote as an attitude is one, in a ROS bag too."""
+        from poise.formats import read_attitude, wrote_attitude
+
+        if wrote_attitude(path):
+            return read_attitude(path, topic=self.topic)
+        try:
+            return self.read(path)
+        except FormatError as no_recording:
+            try:
+                return read_attitude(path, topic=self.topic)
+            except FormatError:
+                raise no_recording from None
 
     def as_arguments(self) -> dict[str, Any]:
         """Keyword arguments of :func:`poise.read`; :class:`UsageError` where an option cannot be understood."""

@@ -11,7 +11,6 @@ from cyclopts import Parameter
 from poise.cli import show
 from poise.cli.options import Reading, Running, UsageError
 from poise.cli.targets import PICTURES, make_room, targets
-from poise.errors import FormatError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -28,7 +27,7 @@ def plot(
 ) -> int:
     """Draw recordings: what the sensors measured, and below it the attitude, with the reference where there is one.
 
-    A FILE may also be an attitude that poise wrote; then its angles are drawn.
+    A FILE may also be an attitude that poise wrote (in a ROS bag too); then its angles are drawn.
 
     Examples: `poise plot walk.csv -o walk.png`; `poise plot logs/*.csv -m gated -o pictures/`
 
@@ -70,16 +69,12 @@ def plot(
 
 
 def _drawn(file: Path, reading: Reading, running: Running, tell: Callable[[str, float], None]) -> tuple[Figure, str]:
-    from poise.formats import read_attitude
+    from poise.data.attitude import Attitude
     from poise.plots import attitude_figure, recording_figure
 
-    try:
-        recording = reading.read(file)
-    except FormatError as no_recording:
-        try:
-            return attitude_figure(read_attitude(file), title=file.stem), "attitude"
-        except FormatError:
-            raise no_recording from None
+    recording = reading.read_either(file)
+    if isinstance(recording, Attitude):
+        return attitude_figure(recording, title=file.stem), "attitude"
     tell("estimating (a first run compiles the method)", 0.2)
     attitude = running.estimate(recording)
     return recording_figure(recording, attitude, title=recording.name), f"sensors and attitude ({running.method})"

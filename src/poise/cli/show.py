@@ -9,7 +9,7 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from poise.errors import PoiseError
 
@@ -37,16 +37,20 @@ def table(
     """A table on stdout; numbers stand right, and nothing is cut off when stdout is no terminal."""
     from rich.console import Console
     from rich.table import Table
+    from rich.text import Text  # never markup: a file may be called "[red].csv"
 
     console = Console(width=None if sys.stdout.isatty() else 160)
-    grid = Table(title=title or None, title_justify="left", header_style="bold", show_footer=footer is not None)
+    grid = Table(
+        title=Text(title) if title else None, title_justify="left", header_style="bold", show_footer=footer is not None
+    )
     sample = rows[0] if rows else [""] * len(columns)
     for i, (name, cell) in enumerate(zip(columns, sample, strict=True)):
         end = footer[i] if footer is not None else ""
         numeric = isinstance(cell, (int, float))
-        grid.add_column(name, justify="right" if numeric else "left", footer=_text(end), overflow="fold")
+        side: Literal["right", "left"] = "right" if numeric else "left"
+        grid.add_column(Text(name), justify=side, footer=Text(_text(end)), overflow="fold")
     for row in rows:
-        grid.add_row(*map(_text, row))
+        grid.add_row(*(Text(_text(cell)) for cell in row))
     console.print(grid)
 
 
@@ -59,9 +63,8 @@ def waiting(files: Sequence[Path]) -> Iterator[Callable[[Path, str, float], None
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-    bar = Progress(
-        TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn(), console=Console(stderr=True), transient=True
-    )  # fmt: skip
+    said = TextColumn("{task.description}", markup=False)
+    bar = Progress(said, BarColumn(), TimeRemainingColumn(), console=Console(stderr=True), transient=True)
     task = bar.add_task("", total=max(len(files), 1))
     place = {file: i for i, file in enumerate(files)}
     timer = threading.Timer(_PATIENCE, bar.start)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 from poise.estimators.adaptive_gain import AdaptiveGain
 from poise.estimators.armband import Armband
@@ -19,3 +19,9 @@ METHODS: dict[str, Any] = {
     "tilt": Tilt,
     "gated": Gated,
 }
+
+
+def judged_by(method: str) -> Literal["total", "inclination"]:
+    """The error that *method*, by its name or that of its class, answers for: one without a heading has its inclination."""
+    cls = METHODS.get(method) or next((each for each in METHODS.values() if each.__name__ == method), None)
+    return "total" if cls is None or "declination" in cls._fields else "inclination"

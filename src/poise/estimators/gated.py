@@ -12,7 +12,7 @@ Departures from the print:
 - ``rotation_gate="rate"``: the gate is a rate, where the print has the vector part of one sample's quaternion, which
   means another rate at every sample rate. ``"per-sample"`` is the print.
 - ``low_pass="time-constant"``, where the print keeps three quarters of the last value per sample (``"per-sample"``).
-- ``pitch_window=None``: corrected at any pitch (within ±89°). The print's is (75, 89).
+- ``pitch_window=(-89, 89)``: corrected at any pitch (within ±89°). The print's is (75, 89).
 - ``rebuild="minimal"``: the smallest turn that puts *up* where g says. The print (``"euler"``) keeps the Euler angle of
   heading, which near 90° of pitch lets the heading absorb the gyroscope's bias divided by cos θ.
 - ``still_gate``: corrected only once the specific force has had gravity's length for a while. The print has no such gate.
@@ -69,7 +69,10 @@ class Gated(NamedTuple):
         0.75
     )
     pitch_window: Annotated[
-        Interval, "deg", "pitch (elevation of the y axis) at which it corrects; None for all of them", (-89.0, 89.0)
+        Interval,
+        "deg",
+        "pitch (elevation of the y axis) at which it corrects; None stands for (-89, 89)",
+        (-89.0, 89.0),
     ] = (-89.0, 89.0)
     rebuild: Annotated[
         Literal["minimal", "euler"], "choice", "how the inclination is put right: smallest turn, or with the same ψ"

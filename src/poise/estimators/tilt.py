@@ -100,6 +100,11 @@ class Tilt(NamedTuple):
         """With the Kalman gain, in motion too: RestBias would take from it what it is to find."""
         return self.gain == "kalman"
 
+    @property
+    def no_heading(self) -> bool:
+        """Two tilt angles are all it keeps: its heading is 0 whatever turns."""
+        return True
+
     @classmethod
     def as_printed(cls) -> Self:
         """The print's choices: body rates, Q per step."""

@@ -1,9 +1,9 @@
 """Files in and out: read and sniff recordings, write recordings and attitudes, read attitudes back."""
 
 from poise.formats.assemble import SensorFacts, Sniffed
-from poise.formats.attitudes import read_attitude
+from poise.formats.attitudes import read_attitude, wrote_attitude
 from poise.formats.limits import Limits
 from poise.formats.reading import read, sniff
 from poise.formats.writing import write
 
-__all__ = ["Limits", "SensorFacts", "Sniffed", "read", "read_attitude", "sniff", "write"]
+__all__ = ["Limits", "SensorFacts", "Sniffed", "read", "read_attitude", "sniff", "write", "wrote_attitude"]

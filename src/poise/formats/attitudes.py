@@ -47,6 +47,17 @@ def read_attitude(path: str | os.PathLike[str], *, topic: str | None = None, lim
         raise FormatError(f"{where}: {problem}") from None
 
 
+def wrote_attitude(path: str | os.PathLike[str], *, limits: Limits | None = None) -> bool:
+    """Whether *path* is a ROS bag whose orientation poise wrote: an attitude, though it holds samples too.
+
+    Raises :class:`FormatError` where the file cannot be read.
+    """
+    where, options = str(path), Options(limits=limits or Limits())
+    path = Path(path)
+    recognise.check(where, path, options.limits)
+    return recognise.kind(where, path) in bag.KINDS and bag.own(path, options)
+
+
 def reference(time: Floats, quat: Floats, **facts: Any) -> Attitude:
     """:meth:`Attitude.of` that leaves quaternions (n, 4) of length 1 as they are, bit for bit."""
     attitude = Attitude.of(time, quat, **facts)

@@ -112,25 +112,15 @@ def orientation(path: Path, options: Options) -> tuple[Floats, Floats, Floats]:
     return bag_stamps.of_imu(imu.topic, imu.received, imu.stamp, [])[0], quat, sigma
 
 
+def own(path: Path, options: Options) -> bool:
+    """Whether the orientation in a bag is an attitude that poise wrote, by the mark that its writer leaves."""
+    return bool(_found(path, options, "own")["own"])
+
+
 def _load(path: Path, options: Options, what: str) -> _Bag:
     """The inertial unit's messages and, for a "recording", the magnetometer's, from a bounded child process."""
     where, limits, kind = str(path), options.limits, recognise.kind(str(path), path)
-    if bag_library.missing():
-        install = 'pip install "poise[ros]"'
-        raise FormatError(f"{where}: reading a {_NAMES[kind]} needs rosbags; install it with: {install}")
-    size = sum(file.stat().st_size for file in recognise.files(path))
-    imu, _, mag = (options.topic or "").partition(",")
-    try:
-        found = bounded.arrays(
-            where,
-            Path(bag_library.__file__),
-            [what, kind, str(path.absolute()), imu.strip(), mag.strip(), str(limits.rows)],
-            memory=min(_BASE + _GROWTH * size, _MOST),
-            seconds=_SECONDS + size // 500_000,
-            limits=limits,
-        )
-    except bounded.ChildFailure as problem:
-        raise FormatError(f"{where}: {_NAMES[kind]} that cannot be read ({problem}); {_REPAIR[kind]}") from None
+    found = _found(path, options, what)
     if "refused" in found:
         raise FormatError(f"{where}: {found['refused']}")
     doubts: list[str] = []
@@ -141,6 +131,27 @@ def _load(path: Path, options: Options, what: str) -> _Bag:
     if len(left := found["left"]):
         told += f"; left out {names.listed([str(name) for name in left])}"
     return _Bag(kind, taken["imu"], taken.get("mag"), [told], doubts)
+
+
+def _found(path: Path, options: Options, what: str) -> dict[str, NDArray[Any]]:
+    """The answer of :func:`bag_library.load`, in a bounded child process."""
+    where, limits, kind = str(path), options.limits, recognise.kind(str(path), path)
+    if bag_library.missing():
+        install = 'pip install "poise[ros]"'
+        raise FormatError(f"{where}: reading a {_NAMES[kind]} needs rosbags; install it with: {install}")
+    size = sum(file.stat().st_size for file in recognise.files(path))
+    imu, _, mag = (options.topic or "").partition(",")
+    try:
+        return bounded.arrays(
+            where,
+            Path(bag_library.__file__),
+            [what, kind, str(path.absolute()), imu.strip(), mag.strip(), str(limits.rows)],
+            memory=min(_BASE + _GROWTH * size, _MOST),
+            seconds=_SECONDS + size // 500_000,
+            limits=limits,
+        )
+    except bounded.ChildFailure as problem:
+        raise FormatError(f"{where}: {_NAMES[kind]} that cannot be read ({problem}); {_REPAIR[kind]}") from None
 
 
 def _taken(

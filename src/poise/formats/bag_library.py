@@ -5,6 +5,7 @@ Message definitions inside a bag are never compiled: the three types that are re
 
 from __future__ import annotations
 
+import struct
 from array import array
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _IMU = "sensor_msgs/msg/Imu"
+_OWN = "/poise_attitude"  # the node that a ROS 1 bag by poise names
+_OWN_DATA = "poise.kind: attitude"  # among the custom data in the metadata.yaml of a ROS 2 bag by poise
+_MCAP_END = struct.Struct("<BQQQI8s")  # the footer record and the magic: opcode, length, start of the summary, …
 _UNKNOWN, _ABSENT = (
     [0.0] * 9,
     [-1.0] + [0.0] * 8,
@@ -37,7 +41,8 @@ def load(what: str, kind: str, path: str, imu: str, mag: str, most: str) -> dict
     """The messages of a bag's inertial unit, and of its magnetometer if *what* is "recording" and not "orientation".
 
     *imu* and *mag* are the topics that the caller names, or ""; above *most* messages a topic is only counted. "refused"
-    in the answer is why no topic could be chosen. Raises anything where the bag is damaged.
+    in the answer is why no topic could be chosen. Where *what* is "own", only whether the orientation in it is one that
+    :func:`write_imu` wrote. Raises anything where the bag is damaged.
     """
     import runpy
 
@@ -45,6 +50,8 @@ def load(what: str, kind: str, path: str, imu: str, mag: str, most: str) -> dict
 
     choose = runpy.run_path(str(Path(__file__).with_name("bag_topics.py")))  # by path, as this script is
     with _opened(kind, path) as reader:
+        if what == "own":
+            return {"own": np.array(_own(reader, kind, path))}
         topics = choose["topics"]((c.topic, c.msgtype, c.msgcount) for c in reader.connections)
         try:
             unit = choose["imu"](topics, imu, raw=what == "recording")
@@ -79,6 +86,37 @@ def _opened(kind: str, path: str) -> Iterator[Any]:
         yield reader
     finally:
         reader.close()
+
+
+def _own(reader: Any, kind: str, path: str) -> bool:
+    units = [connection for connection in reader.connections if connection.msgtype == _IMU]
+    if kind == "ros1":
+        return bool(units) and all(connection.ext.callerid == _OWN for connection in units)
+    if kind == "db3":
+        return False  # poise writes none
+    folder = Path(path, "metadata.yaml")
+    told = folder.read_text(errors="replace") if kind == "ros2" else _mcap_metadata(Path(path))
+    return _OWN_DATA in told
+
+
+def _mcap_metadata(path: Path) -> str:
+    """The metadata.yaml that a bare MCAP file of ROS 2 carries, by the index in its summary; "" where there is none."""
+    with path.open("rb") as file:
+        file.seek(-_MCAP_END.size, 2)
+        end = file.tell()
+        _, _, start, *_ = _MCAP_END.unpack(file.read(_MCAP_END.size))
+        if not 0 < start < end:
+            return ""
+        file.seek(start)
+        summary, at = file.read(end - start), 0
+        while at + 9 <= len(summary):
+            opcode, length = struct.unpack_from("<BQ", summary, at)
+            if opcode == 0x0D and length > 16:  # the index of a metadata record
+                offset, size = struct.unpack_from("<QQ", summary, at + 9)
+                file.seek(offset)
+                return file.read(min(size, end)).decode(errors="replace")
+            at += 9 + length
+    return ""
 
 
 def _messages(reader: Any, kind: str, chosen: dict[str, Any], most: int) -> dict[str, dict[str, Any]]:
@@ -175,7 +213,8 @@ def write_imu(path: Path, kind: str, rows: ImuRows, topic: str, frame_id: str, f
         for key, value in facts.items():
             writer.set_custom_data(key, value)
     with writer:
-        connection = writer.add_connection(topic, _IMU, typestore=store)
+        own = {"callerid": _OWN} if kind == "bag" else {}
+        connection = writer.add_connection(topic, _IMU, typestore=store, **own)
         for stamp, message in _written(store.types, rows, frame_id, seq=kind == "bag"):
             writer.write(connection, stamp, encode(message, _IMU))
 

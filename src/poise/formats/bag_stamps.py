@@ -56,7 +56,7 @@ def seconds(nanoseconds: Nanoseconds) -> Floats:
 
 
 def nanoseconds(time: Floats) -> Nanoseconds:
-    """*time* (n,) s in ns; :func:`seconds` gives the same doubles back wherever they are a nanosecond's or coarser."""
+    """*time* (n,) s, each rounded to a whole ns; :func:`seconds` gives it back within 1 ns, not always bit for bit."""
     whole = np.floor(time)
     return np.asarray(whole.astype(np.int64) * 10**9 + np.rint((time - whole) * 1e9).astype(np.int64))
 
