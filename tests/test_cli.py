@@ -232,6 +232,18 @@ def test_bad_files_are_told_and_the_good_ones_done(folder: Path, capsys: pytest.
     assert [path.name for path in (folder / "out").iterdir()] == ["made.attitude.parquet"]
 
 
+def test_messages_count_and_name_once(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    poise.write(poise.Recording([0.0], [[0.1, 0, 0]], [[0, 0, 9.8]]), "one.csv")
+    assert run(["sniff", "one.csv"]) == 0
+    assert "1 row," in capsys.readouterr().out
+    (folder / "empty.csv").touch()
+    assert run(["estimate", "empty.csv", "--json"]) == 1
+    captured = capsys.readouterr()
+    assert json.loads(captured.out)["errors"] == [{"file": "empty.csv", "error": "the file is empty"}]
+    assert captured.err == "poise: empty.csv: the file is empty\n"
+    refused(capsys, "estimate", "made.csv", "-m", "gated", "--set", "alpha=2", code=2, says="expected 0 to 1, found 2")
+
+
 def test_an_unwritable_place_is_told(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (folder / "taken").write_text("a file, not a folder")
     refused(capsys, "estimate", "made.csv", "-o", "taken/out.parquet", code=1, says="taken")

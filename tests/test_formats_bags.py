@@ -309,6 +309,24 @@ def test_a_bag_by_others_stays_a_recording(tmp_path: Path, kind: str) -> None:
     assert not wrote_attitude(save(tmp_path / "a", imu("/imu/data", quat=QUAT), kind))
 
 
+@pytest.mark.parametrize(("start", "exact"), [(0.0, False), (1.7e9, True)])
+def test_stamps_come_back_within_a_nanosecond(start: float, exact: bool) -> None:
+    time = start + np.random.default_rng(0).random(10_000) * 100
+    again = bag_stamps.seconds(bag_stamps.nanoseconds(time))
+    np.testing.assert_allclose(again, time, rtol=0, atol=1e-9)
+    assert (again == time).all() == exact
+
+
+def test_a_bag_of_ten_bytes_is_cut_short(tmp_path: Path) -> None:
+    path = tmp_path / "a.bag"
+    path.write_bytes(b"#ROSBAG V2")
+    with pytest.raises(FormatError, match="a ROS 1 bag that is cut short"):
+        read(path)
+    path.write_bytes(b"#ROSBAG V1.2\n")
+    with pytest.raises(FormatError, match=r"another version than 2\.0"):
+        read(path)
+
+
 def test_without_rosbags_the_extra_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = save(tmp_path / "a.bag", imu())
     monkeypatch.setattr(bag_library, "missing", lambda: True)

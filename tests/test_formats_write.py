@@ -235,3 +235,12 @@ def _text(cache: list[bytes] = []) -> bytes:  # noqa: B006  # made once
 def test_paths_may_be_text(tmp_path):
     path = write(recording(), str(tmp_path / "a.csv"))
     assert isinstance(path, Path) and read(str(path)).source == str(path)
+
+
+@pytest.mark.parametrize("kind", ["csv", "mcap"])
+def test_the_longest_name_can_be_written(tmp_path, kind):
+    name = "日" * ((254 - len(kind)) // 3) + f".{kind}"
+    assert 250 < len(name.encode()) <= 255
+    thing = recording() if kind == "csv" else Attitude.of([0.0, 0.5], [[1.0, 0, 0, 0]] * 2)
+    write(thing, tmp_path / name)
+    assert [path.name for path in tmp_path.iterdir()] == [name]

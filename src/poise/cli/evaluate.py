@@ -173,6 +173,9 @@ def _report(results: list[dict[str, Any]]) -> None:
     means = [_over([figures[kind] for figures in told]) for kind in _KINDS]
     footer = ["mean", "", "", *means, "", "", "", ""] if len(results) > 1 else None
     show.table("RMSE in degrees", columns, rows, footer)
+    from poise.formats.names import counted
+
     for result in results:
         if result["missing"]:
-            show.note(f"{Path(result['file']).name}: {result['missing']} rows that should count have no attitude")
+            rows_ = counted(result["missing"], "row")
+            show.note(f"{Path(result['file']).name}: of the rows that should count, {rows_} without an attitude")

@@ -96,7 +96,7 @@ def each(
                 raise
             except (PoiseError, OSError) as error:
                 text = str(error)
-                refused.append({"file": str(file), "error": text})
+                refused.append({"file": str(file), "error": text.removeprefix(f"{file}: ")})
                 problem(text if file.name in text else f"{file}: {text}")
     return results, refused
 

@@ -52,9 +52,16 @@ def sniff(
 
 
 def _tell(result: dict[str, Any]) -> None:
+    from poise.formats.names import counted
+
     gaps, longest = result["gaps"]
-    print(f"{result['path']}: {result['format']}, {result['rows']} rows, {result['duration']:.1f} s", end=" ")
-    print(f"at {result['rate_hz']:.2f} Hz, " + (f"{gaps} gaps, the longest {longest:.3f} s" if gaps else "no gaps"))
+    print(
+        f"{result['path']}: {result['format']}, {counted(result['rows'], 'row')}, {result['duration']:.1f} s", end=" "
+    )
+    print(
+        f"at {result['rate_hz']:.2f} Hz, "
+        + (f"{counted(gaps, 'gap')}, the longest {longest:.3f} s" if gaps else "no gaps")
+    )
     rows = []
     for name, facts in result["sensors"].items():
         columns = [theirs for ours, theirs in result["columns"].items() if ours.partition("_")[0] == name]

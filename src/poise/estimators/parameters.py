@@ -99,11 +99,17 @@ def _number(name: str, value: Any, parameter: Parameter) -> float | int:
             raise ValueError
     except (TypeError, ValueError, OverflowError):
         expected = "a whole number" if parameter.kind is int else "a number"
-        unit = f" ({parameter.unit})" if parameter.unit else ""
+        unit = f" ({_unit(parameter)})" if _unit(parameter) else ""
         raise MethodError(f"{name}: expected {expected}{unit}, found {value!r}") from None
     if not (parameter.low <= number <= parameter.high and math.isfinite(number)):
-        raise MethodError(f"{name}: expected {parameter.low:g} to {parameter.high:g} {parameter.unit}, found {value!r}")
+        allowed = f"{parameter.low:g} to {parameter.high:g} {_unit(parameter)}".rstrip()
+        raise MethodError(f"{name}: expected {allowed}, found {value!r}")
     return int(number) if parameter.kind is int else number
+
+
+def _unit(parameter: Parameter) -> str:
+    """Its unit behind a number; a share has none to be read aloud."""
+    return "" if parameter.unit == "1" else parameter.unit
 
 
 def as_dict(method: Any) -> dict[str, Any]:

@@ -68,8 +68,8 @@ def _table(
     options.limits.check(where, "rows", rows)
     if wrong := [key for key, length in lengths.items() if length != rows]:
         raise FormatError(
-            f"{where}: {wrong[0]} has {lengths[wrong[0]]} rows, gyr has {rows}; sensors with clocks of their own: "
-            "merge them with Recording.from_sensors"
+            f"{where}: {wrong[0]} has {names.counted(lengths[wrong[0]], 'row')}, gyr has {rows}; "
+            "sensors with clocks of their own: merge them with Recording.from_sensors"
         )
     if not rows:
         raise FormatError(f"{where}: no rows")

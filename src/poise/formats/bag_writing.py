@@ -10,6 +10,7 @@ from poise.data.attitude import Attitude
 from poise.data.recording import Recording
 from poise.errors import FormatError
 from poise.formats import bag_library, bag_stamps
+from poise.formats.names import counted
 from poise.formats.saving import making
 
 KINDS = ("bag", "mcap", "ros2")
@@ -54,7 +55,7 @@ def _guard(path: Path) -> None:
 
 def _rows(attitude: Attitude, path: Path, kind: str, recording: Recording | None) -> bag_library.ImuRows:
     if recording is not None and len(recording) != len(attitude):
-        raise FormatError(f"{path}: the recording has {len(recording)} rows, the attitude {len(attitude)}")
+        raise FormatError(f"{path}: the recording has {counted(len(recording), 'row')}, the attitude {len(attitude)}")
     timed = np.isfinite(attitude.time)
     part = attitude[timed]
     if len(part) and not (part.time.min() >= 0 and part.time.max() < _LATEST[kind]):

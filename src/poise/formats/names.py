@@ -221,6 +221,11 @@ def _complete(where: str, columns: dict[str, Column], names: Sequence[str]) -> d
     return used
 
 
+def counted(number: int, noun: str) -> str:
+    """ "1 row", "2 rows"."""
+    return f"{number} {noun}{'s' * (number != 1)}"
+
+
 def listed(names: Sequence[str], most: int = 12) -> str:
     """A short list of names for a message."""
     shown = ", ".join(name[:40] or "(unnamed)" for name in names[:most])

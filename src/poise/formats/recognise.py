@@ -8,6 +8,7 @@ from pathlib import Path
 from poise.errors import FormatError
 from poise.formats.limits import Limits
 
+_ROS1 = b"#ROSBAG V2.0\n"
 _MAGIC = (
     (b"PAR1", "parquet"),
     (b"PK\x03\x04", "zip"),
@@ -16,7 +17,7 @@ _MAGIC = (
     (b"MATLAB 7.3", "a MATLAB v7.3 (HDF5) file; save it as save('name.mat', ..., '-v7')"),
     (b"MATLAB", "mat"),
     (b"\x89HDF", "an HDF5 file; export it as CSV, Parquet or npz"),
-    (b"#ROSBAG V2.0\n", "ros1"),
+    (_ROS1, "ros1"),
     (b"#ROSBAG", "a ROS 1 bag of another version than 2.0; convert it with rosbag"),
     (b"\x89MCAP0\r\n", "mcap"),
     (b"SQLite format 3\0", "db3"),
@@ -90,6 +91,8 @@ def kind(where: str, path: Path) -> str:
                 return _zip(where, path)
             if what in _READ:
                 return what
+            if len(head) < len(_ROS1) and _ROS1.startswith(head):
+                what = "a ROS 1 bag that is cut short; copy it again"
             raise FormatError(f"{where}: {what}" + (_READABLE if ";" not in what else ""))
     if head[124:128] in (b"\x00\x01IM", b"\x01\x00MI"):
         return "mat"

@@ -19,7 +19,7 @@ def replacing(path: Path) -> Iterator[BinaryIO]:
 
     Raises :class:`FormatError` where the folder cannot be written to.
     """
-    part = path.with_name(f".{path.name[:100]}.{secrets.token_hex(4)}.part")
+    part = _beside(path)
     try:
         with part.open("xb") as file:
             yield file
@@ -38,7 +38,7 @@ def making(path: Path) -> Iterator[Path]:
 
     A folder at *path* is replaced whole. Raises :class:`FormatError` where the folder above cannot be written to.
     """
-    workshop = path.with_name(f".{path.name[:100]}.{secrets.token_hex(4)}.part")
+    workshop = _beside(path)
     try:
         workshop.mkdir()
         made, old = workshop / path.name, workshop / "old"
@@ -63,3 +63,9 @@ def making(path: Path) -> Iterator[Path]:
     finally:
         if path.exists() or not (workshop / "old").exists():  # never the only copy
             shutil.rmtree(workshop, ignore_errors=True)
+
+
+def _beside(path: Path) -> Path:
+    """A name that no file has; whatever the length of *path*'s own, within the 255 bytes that file systems allow."""
+    start = os.fsencode(path.name)[:100].decode("utf-8", "ignore")
+    return path.with_name(f".{start}.{secrets.token_hex(4)}.part")
