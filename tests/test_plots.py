@@ -19,6 +19,7 @@ from poise import plots
 from poise.data.flags import LOST, MAG_MISSING, REST
 from poise.errors import FormatError, PoiseError, RecordingError
 from poise.math import arrays
+from poise.plots.inline import inline_svg
 from poise.simulation import at_rest, forearm, measure
 
 
@@ -190,3 +191,29 @@ def test_without_matplotlib(attitude: poise.Attitude, monkeypatch: pytest.Monkey
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
     with pytest.raises(PoiseError, match=r'pip install "poise\[plots\]"'):
         plots.attitude_figure(attitude)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("share", [10, 1])
+def test_samples_too_large_for_a_square_draw_without_a_warning(
+    recording: poise.Recording, tmp_path: Path, share: int
+) -> None:
+    columns = {name: getattr(recording, name).copy() for name in ("gyr", "acc", "mag")}
+    for values in columns.values():
+        values[::share] = 1e300
+    huge = replace(recording, truth=None, moving=None, **columns)
+    comparison = poise.compare(huge, ["two-stage", "tilt"])
+    assert isinstance(comparison.stretches(), tuple)
+    for figure in (plots.recording_figure(huge), plots.comparison_figure(comparison)):
+        plots.save_figure(figure, tmp_path / "a.png")
+
+
+@pytest.mark.filterwarnings("error")
+def test_stamps_that_are_all_equal_draw_without_a_warning(recording: poise.Recording, tmp_path: Path) -> None:
+    plots.save_figure(plots.recording_figure(replace(recording, time=np.full(len(recording), 5.0))), tmp_path / "a.png")
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_name_that_no_font_has_is_saved_without_a_warning(recording: poise.Recording, tmp_path: Path) -> None:
+    plots.save_figure(plots.recording_figure(replace(recording, name="歩行")), tmp_path / "a.png")
+    assert "歩行" in inline_svg(plots.recording_figure(replace(recording, name="歩行")), "a", "a walk")

@@ -5,7 +5,8 @@
         print(run.name, run.failure or run.figures())
     comparison.stretches()  # who departs, from when to when, by how much, and why
 
-Where the recording has a reference, the errors are those of :func:`poise.evaluate`. Where it has none, what most of the
+Where the recording has a reference, the errors are those of :func:`poise.evaluate`, but that without a
+magnetometer headings are aligned with it first. Where it has none, what most of the
 estimators agree on takes its place: the same figures, but of a distance, and a majority may be wrong together.
 """
 

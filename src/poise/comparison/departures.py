@@ -165,16 +165,16 @@ class _Sensors:
     """What the sensors measured, in terms of what is usual for them."""
 
     def __init__(self, recording: Recording, reference: Attitude) -> None:
-        field = np.linalg.norm(recording.mag, axis=1)
-        field[~(field > 0.0)] = np.nan
+        field = arrays.length(recording.mag)
+        field[~((field > 0.0) & np.isfinite(field))] = np.nan
         up = arrays.rotate(arrays.conjugate(reference.to("enu").quat), np.array([0.0, 0.0, 1.0]))
-        with np.errstate(invalid="ignore"):
+        with np.errstate(invalid="ignore", over="ignore"):
             dip = np.degrees(np.arcsin(np.clip(-np.sum(recording.mag * up, axis=1) / field, -1.0, 1.0)))
         self.has_mag = recording.has_mag
         self.field = field / _median(field)
         self.dip = dip - _median(dip)
-        self.force = np.linalg.norm(recording.acc, axis=1) / recording.gravity - 1.0
-        self.rate = np.degrees(np.linalg.norm(recording.gyr, axis=1))
+        self.force = arrays.length(recording.acc) / recording.gravity - 1.0
+        self.rate = np.degrees(arrays.length(recording.gyr))
 
     def before(self, clock: Floats, rows: Rows) -> tuple[str, ...]:
         """What was out of the ordinary just before: a filter may be slow to follow, or to come back."""

@@ -27,6 +27,12 @@ def conjugate(q: Floats) -> Floats:
     return np.asarray(np.asarray(q) * np.array([1.0, -1.0, -1.0, -1.0]))
 
 
+def length(v: Floats) -> Floats:
+    """(n,) the lengths of (n, m) vectors; inf for one too long for a float, without a warning."""
+    with np.errstate(over="ignore"):
+        return np.asarray(np.linalg.norm(v, axis=-1))
+
+
 def normalize(q: Floats) -> Floats:
     """Rows of length one; a row without a length becomes NaN."""
     length = np.linalg.norm(q, axis=-1, keepdims=True)

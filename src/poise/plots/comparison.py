@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from poise.comparison import Comparison, Run
+from poise.math import arrays
 from poise.plots.style import (
     BARE,
     BLUE,
@@ -74,7 +75,7 @@ def comparison_figure(comparison: Comparison, title: str = "", *, narrow: bool =
 
 def _draw_turning(ax: Axes, time: Floats, comparison: Comparison) -> None:
     name_panel(ax, "Turning [°/s]", "")
-    _plain_line(ax, time, np.degrees(np.linalg.norm(comparison.recording.gyr, axis=1)), INK, "angular rate")
+    _plain_line(ax, time, np.degrees(arrays.length(comparison.recording.gyr)), INK, "angular rate")
     fit(ax, least=10.0, floor=0.0)
     legend(ax)
 
@@ -82,11 +83,12 @@ def _draw_turning(ax: Axes, time: Floats, comparison: Comparison) -> None:
 def _draw_strengths(ax: Axes, time: Floats, comparison: Comparison) -> None:
     recording = comparison.recording
     name_panel(ax, "Strength", "")
-    _plain_line(ax, time, np.linalg.norm(recording.acc, axis=1) / recording.gravity, BLUE, "specific force / g")
+    _plain_line(ax, time, arrays.length(recording.acc) / recording.gravity, BLUE, "specific force / g")
     if recording.has_mag:
-        field = np.linalg.norm(recording.mag, axis=1)
-        field[~(field > 0)] = np.nan
-        _plain_line(ax, time, field / np.nanmedian(field), ORANGE, "field / its median")
+        field = arrays.length(recording.mag)
+        field[~((field > 0) & np.isfinite(field))] = np.nan
+        if np.isfinite(field).any():
+            _plain_line(ax, time, field / np.nanmedian(field), ORANGE, "field / its median")
     fit(ax, least=0.5)
     legend(ax)
 

@@ -10,6 +10,7 @@ import numpy as np
 from poise.data.attitude import Attitude
 from poise.data.recording import Recording
 from poise.evaluation import Errors
+from poise.math import arrays
 from poise.plots.attitude import draw_attitude
 from poise.plots.style import (
     BLUE,
@@ -82,7 +83,8 @@ def _panels(recording: Recording) -> list[str]:
     found = [s for s, _, _ in _SENSORS if s != "mag" or recording.has_mag]
     steps = np.diff(recording.time)
     usual = np.median(steps) if len(steps) else np.nan
-    return found + (["steps"] if np.any(~(np.abs(steps / usual - 1.0) <= _UNEVEN)) and usual > 0 else [])
+    uneven = usual > 0 and np.any(~(np.abs(steps / usual - 1.0) <= _UNEVEN))
+    return found + (["steps"] if uneven else [])
 
 
 def _draw_sensor(ax: Axes, time: Floats, recording: Recording, sensor: str) -> None:
@@ -98,7 +100,7 @@ def _draw_sensor(ax: Axes, time: Floats, recording: Recording, sensor: str) -> N
     stamps, shown = _broken(time[rows], values[rows])
     drawn = [(shown[:, i], axis, colour) for i, (axis, colour) in enumerate(zip("xyz", (BLUE, ORANGE, GREEN)))]  # noqa: B905
     if sensor != "gyr":
-        drawn.insert(0, (np.linalg.norm(shown, axis=1), "length", QUIET))
+        drawn.insert(0, (arrays.length(shown), "length", QUIET))
     for column, axis, colour in drawn:
         keep = thinned(column, ax)
         ax.plot(stamps[keep], column[keep], color=colour, lw=1.0 if axis != "length" else 1.4, label=axis)

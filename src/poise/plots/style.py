@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from datetime import UTC, datetime
 from os import getpid
 from pathlib import Path
@@ -42,6 +44,15 @@ def figure_class() -> type[Figure]:
     return Figure
 
 
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Saving without warnings on stderr: of a character that no font has (it is a box then), of a size too large."""
+    with warnings.catch_warnings(), np.errstate(all="ignore"):
+        warnings.simplefilter("ignore", UserWarning)
+        warnings.simplefilter("ignore", RuntimeWarning)
+        yield
+
+
 def save_figure(figure: Figure, path: str | Path) -> None:
     """Write *figure* as PNG, SVG or PDF, by the extension of *path*: the whole file or nothing.
 
@@ -54,7 +65,8 @@ def save_figure(figure: Figure, path: str | Path) -> None:
     stamp = {"png": {}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}[kind]  # the same file each time
     beside = path.with_name(f".{path.name}.{getpid()}.part")
     try:
-        figure.savefig(beside, format=kind, dpi=150, metadata=stamp)
+        with quiet():
+            figure.savefig(beside, format=kind, dpi=150, metadata=stamp)
         beside.replace(path)
     except OSError as problem:
         raise FormatError(f"{path}: cannot write there: {problem.strerror or problem}") from None
@@ -185,6 +197,7 @@ def fit(ax: Axes, least: float, floor: float | None = None) -> tuple[float, floa
     values = np.concatenate([np.asarray(line.get_ydata(), float) for line in ax.lines])
     values = values[np.isfinite(values)]
     low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 0.0)
+    least = max(least, 1e-6 * max(abs(low), abs(high)))  # of a large number a small step is none
     low, high = (low, high) if high - low > least else ((low + high - least) / 2, (low + high + least) / 2)
     low = low if floor is None else floor
     margin = 0.08 * (high - low)
