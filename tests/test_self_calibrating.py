@@ -348,3 +348,10 @@ def test_without_magnetometer_north_stays_unknown() -> None:
 def test_the_future_makes_it_better_beside_hard_iron_too() -> None:
     recording = made(replace(WHITE, mag=Triad(noise=0.05, bias=(3.0, -2.0, 1.5))))
     assert total(poise.smooth(recording), recording) < total(poise.estimate(FLAGSHIP, recording), recording)
+
+
+def test_the_way_back_too_weighs_gravity_as_the_recording_does() -> None:
+    moon = measure(forearm(20.0, 100.0, 1), PERFECT, gravity=1.62)
+    np.testing.assert_allclose(poise.smooth(moon).quat[-1], poise.estimate(FLAGSHIP, moon).quat[-1], atol=1e-9)
+    with pytest.raises(poise.PoiseError, match="expected a Recording"):
+        poise.smooth(moon.gyr)  # type: ignore[arg-type]

@@ -313,7 +313,7 @@ def estimate(
         raise RecordingError(
             f"expected a Recording, found {type(recording).__name__}; see poise.read and poise.Recording"
         )
-    stream = Stream(_at_gravity(method, recording.gravity), start, bias=bias, guard=guard, rest_bias=rest_bias)
+    stream = Stream(at_gravity(method, recording.gravity), start, bias=bias, guard=guard, rest_bias=rest_bias)
     return feed(stream, recording, _BLOCK, progress=progress)
 
 
@@ -375,7 +375,7 @@ def _wrapped(method: Any, guard: bool, rest_bias: bool) -> Any:
     return Guard(method, follows_mag=hasattr(_core(method), "declination"), **facts)
 
 
-def _at_gravity(method: Any, gravity: float) -> Any:
+def at_gravity(method: Any, gravity: float) -> Any:
     """*method* with the recording's gravity, where it has one and was left at the usual."""
     if gravity == STANDARD_GRAVITY or isinstance(method, (Guard, RestBias)):
         return method

@@ -120,7 +120,9 @@ class SelfCalibrating(NamedTuple):
     gyr_range: Annotated[float, "rad/s", "end of the gyroscope's range: rates from 98 % of it on are clipped"] = (
         radians(2000.0)
     )
-    log: Annotated[int, "blocks", "how many blocks are kept for a smoother", (0, 1e6)] = 0
+    log: Annotated[
+        int, "blocks", "room for what `smooth` goes back over; it sets this itself, leave it at 0", (0, 1e6)
+    ] = 0
     lead: Annotated[float, "s", "the attitude given out is that of now + lead", (-1.0, 1.0)] = 0.0
     gravity: Annotated[float, "m/s²", "length of gravity g", (0.1, 100.0)] = 9.80665
     declination: Annotated[float, "rad", "true heading = magnetic heading + D, east positive", (-pi, pi)] = 0.0
@@ -295,7 +297,7 @@ def clipped_columns(R: Mat3, gyr: Vec3, limit: float) -> Mat3:
 
 @compiled
 def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> State:
-    """The state after the end of a block : 4. covariance, 5. rest, 6. pseudo-velocity, 7. magnetometer, 8. inject."""
+    """The state after the end of a block: 4. covariance, 5. rest, 6. pseudo-velocity, 7. magnetometer, 8. inject."""
     P = state.P
     T, rate_square = s.time, s.rate_square / s.samples
     still = (1.0 / s.samples) * s.gyr - state.bias

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from poise.data.attitude import Attitude
 from poise.data.recording import Recording
-from poise.errors import MethodError
-from poise.estimators.engine import Stream, feed
+from poise.errors import MethodError, RecordingError
+from poise.estimators.engine import Stream, at_gravity, feed
 from poise.estimators.self_calibrating.backward import apply, back
 from poise.estimators.self_calibrating.causal import SelfCalibrating
 from poise.estimators.self_calibrating.model import COLUMNS as WIDTH
@@ -23,10 +23,8 @@ from poise.math.vectors import Vec3
 Indices = NDArray[np.int64]
 
 _PART = 8192  # rows of a recording at a time
-_INDEX, _KNOWN = (
-    np.uint32(20),
-    np.uint32(0xFFFFF),
-)  # where in the flags the log's entry is counted, and what is left of them
+_INDEX = np.uint32(20)  # from this bit of the flags on the log's entries are counted
+_KNOWN = np.uint32(0xFFFFF)  # the flags below it
 
 
 def smooth(
@@ -46,13 +44,15 @@ def smooth(
     recording, at the default length of a block. Other arguments as for :func:`estimate`.
     Raises :class:`MethodError` for another method, and what :func:`estimate` raises.
     """
+    if not isinstance(recording, Recording):
+        raise RecordingError(f"expected a Recording, found {type(recording).__name__}; see poise.read")
     method = SelfCalibrating() if method is None else method
     if not isinstance(method, SelfCalibrating):
         raise MethodError(f"only SelfCalibrating can be smoothed, found {type(method).__name__}")
     if not (window > 0.0 and overlap >= 0.0):
         raise MethodError(f"window and overlap: expected seconds, found {window!r} and {overlap!r}")
-    room = _PART + 2
-    stream = Stream(method._replace(log=room), start, bias=bias, guard=guard)
+    method = at_gravity(method, recording.gravity)._replace(log=0)
+    stream = Stream(method._replace(log=_PART + 2), start, bias=bias, guard=guard)
     log: list[Floats] = []
     past = feed(stream, recording, _PART, after=lambda: log.append(_taken(stream)), progress=progress)
     entry = _unwrapped(past.flags >> _INDEX)
