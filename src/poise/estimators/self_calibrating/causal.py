@@ -59,6 +59,7 @@ from poise.math.quaternions import Quat, attitude_of, conjugate, exp, normalize,
 from poise.math.vectors import UP, ZERO, Vec3, cross, dot, norm, present, unit, within
 
 _FIRST_SPREAD = 1e-4  # (share of the field)², before any has been measured
+_FIRST_WANDER = 0.04  # (m/s)²
 
 
 class State(NamedTuple):
@@ -82,9 +83,10 @@ class SelfCalibrating(NamedTuple):
     bias_walk_rest: Annotated[float, "rad/s/√s", "random walk of the bias at rest", (0.0, 10.0)] = 2e-6
     acc_noise: Annotated[float, "m/s²/√Hz", "accelerometer noise σ_v", (1e-9, 1e3)] = 0.01
     motion_noise: Annotated[float, "√s", "κ: noise per specific force beyond gravity", (0.0, 1e3)] = 0.01
-    speed: Annotated[float, "m/s·√s", "how far the pseudo-velocity strays from 0, over one second", (1e-6, 1e6)] = 0.35
+    speed: Annotated[float, "m/s·√s", "how far the pseudo-velocity strays from 0, over one second", (1e-6, 1e6)] = 0.2
+    speed_time: Annotated[float, "s", "how long a velocity lasts, that it has in motion", (0.0, 1e6)] = 0.4
     field_time: Annotated[float, "s", "how long an error of the field lasts", (1e-3, 1e6)] = 2.5
-    spread_time: Annotated[float, "s", "over which the field's errors are averaged", (1e-3, 1e6)] = 10.0
+    spread_time: Annotated[float, "s", "over which errors of the field, and velocities, are averaged", (1e-3, 1e6)] = 10.0
     mag_rate_noise: Annotated[float, "s", "error of the field per rate of turn", (0.0, 10.0)] = 1e-3
     field_walk: Annotated[float, "1/√s", "random walk of the field's north and up, in lengths of it", (0.0, 10.0)] = (
         3e-5
@@ -143,7 +145,7 @@ class SelfCalibrating(NamedTuple):
         forget(P, ACC_DELAY, 1, self.acc_delay_sigma**2)
         unsure_attitude(self, P)
         none = Mat3(ZERO, ZERO, ZERO)
-        put_sensor(P, Sensor(none, ZERO, ZERO, ZERO, self.mag_delay, 0.0, 0.0, _FIRST_SPREAD))
+        put_sensor(P, Sensor(none, ZERO, ZERO, ZERO, self.mag_delay, 0.0, 0.0, _FIRST_SPREAD, _FIRST_WANDER))
         attitude = attitude_of(sample.acc, sample.mag, 0.0)
         return State(attitude, bias, ZERO, sample.gyr, sample.acc, 0.0, False, P)
 
@@ -328,8 +330,14 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         correct_one(P, BIAS, still.x, variance)
         correct_one(P, BIAS + 1, still.y, variance)
         correct_one(P, BIAS + 2, still.z, variance)
+    wander = known.wander
     if s.force_time > 0.0:
-        variance = method.rest_speed**2 * method.block / T if rest else method.speed**2 / s.force_time
+        if rest:
+            variance = method.rest_speed**2 * method.block / T
+        else:
+            share, usual = T / (method.spread_time + T), wander + method.speed**2
+            wander += share * (min(dot(v, v) / 3.0, 9.0 * usual) - wander)
+            variance = (method.speed**2 + method.speed_time * wander) / s.force_time
         correct_one(P, VELOCITY, -v.x, variance)
         correct_one(P, VELOCITY + 1, -v.y, variance)
         correct_one(P, VELOCITY + 2, -v.z, variance)
@@ -360,6 +368,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         known.acc_delay + float(P[X, ACC_DELAY]),
         length,
         spread,
+        wander,
     )
     put_sensor(P, after)
     enter_block(P, s, not state.begun)

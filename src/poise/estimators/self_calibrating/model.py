@@ -65,6 +65,7 @@ class Sensor(NamedTuple):
     acc_delay: float
     length: float  # of the field in the magnetometer's unit; 0 while unknown
     spread: float  # s²: mean square of the field's errors, per axis
+    wander: float  # s_v², (m/s)²: mean square of the pseudo-velocity in motion, per axis
 
 
 NOTHING = Sums(0.0, 0.0, _NONE, ZERO, ZERO, 0.0, ZERO, 0.0, 0.0, 0.0, 0.0, ZERO, _NONE, ZERO, _NONE)
@@ -296,7 +297,7 @@ def sensor_of(P: Floats) -> Sensor:
     r = SENSOR
     return Sensor(
         three(P, r, 0), vector(P, r, 9), vector(P, r, 12), vector(P, r, 15),
-        float(P[r, 18]), float(P[r, 19]), float(P[r, 20]), float(P[r, 21]),
+        float(P[r, 18]), float(P[r, 19]), float(P[r, 20]), float(P[r, 21]), float(P[r, 24]),
     )  # fmt: skip
 
 
@@ -307,7 +308,7 @@ def put_sensor(P: Floats, s: Sensor) -> None:
     put(P, r, 9, s.velocity)
     put(P, r, 12, s.field)
     put(P, r, 15, s.iron)
-    P[r, 18], P[r, 19], P[r, 20], P[r, 21] = s.mag_delay, s.acc_delay, s.length, s.spread
+    P[r, 18], P[r, 19], P[r, 20], P[r, 21], P[r, 24] = s.mag_delay, s.acc_delay, s.length, s.spread, s.wander
 
 
 @compiled
