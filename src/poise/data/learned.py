@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
@@ -30,7 +30,7 @@ _AXES = {
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Learned(Mapping[str, Mapping[str, Any]]):
-    """What is known of the sensors: a mapping from a quantity's name to its ``value``, ``sigma`` of the same shape and ``unit``.
+    """What is known of the sensors: a mapping from a quantity's name to its ``value``, ``sigma`` of its shape and ``unit``.
 
     Write it with :func:`poise.write` (JSON), read it with :func:`poise.read_learned`, and give it as ``start_from`` for the
     next recording of the same sensor.
@@ -75,14 +75,14 @@ class Learned(Mapping[str, Mapping[str, Any]]):
         if self.covariance is not None:
             _check_covariance(self.states, self.covariance, self.numbers()[0])
 
-    def as_json(self) -> str:
-        """All of it on one line; :meth:`of_json` reads it back, bit for bit."""
+    def as_json(self, indent: int | None = None) -> str:
+        """All of it, on one line without *indent*; :meth:`of_json` reads it back, bit for bit."""
         kept: dict[str, Any] = {"poise": KIND, "method": self.method, "source": self.source}
         kept["learned"] = {name: dict(found) for name, found in self.quantities.items()}
         if self.covariance is not None:
             kept["states"] = list(self.states)
             kept["covariance"] = [row[: i + 1] for i, row in enumerate(self.covariance.tolist())]  # below the diagonal
-        return json.dumps(kept)
+        return json.dumps(kept, indent=indent)
 
     @classmethod
     def of_json(cls, text: str) -> Self:
@@ -145,6 +145,9 @@ class Learning:
         for i, name in enumerate(self.names):
             columns |= {name: self.values[:, i], f"{name}_sigma": self.sigma[:, i]}
         return columns
+
+    def __getitem__(self, rows: slice) -> Learning:
+        return replace(self, time=self.time[rows], values=self.values[rows], sigma=self.sigma[rows])
 
     def metadata(self) -> dict[str, str]:
         """What a file must say beside the columns."""

@@ -33,9 +33,9 @@ class Slewed(NamedTuple):
     rate: Annotated[float, "rad/s", "how fast a correction may turn the attitude that is given out", (0.0, 1e9)] = (
         radians(10.0)
     )
-    lead: Annotated[
-        float, "s", "the method's own: what it turns ahead of the sample is no correction", (-1.0, 1.0)
-    ] = 0.0
+    lead: Annotated[float, "s", "the method's own: what it turns ahead of the sample is no correction", (-1.0, 1.0)] = (
+        0.0
+    )
 
     def start(self, sample: Sample, bias: Vec3) -> State:
         inner = start(self.method, sample, bias)
@@ -59,7 +59,7 @@ class Slewed(NamedTuple):
 
     def output(self, state: State, sample: Sample) -> Output:
         """What the method says, at the attitude given out; sigma² about each of the Earth's axes with pending² added."""
-        out = output(self.method, state.inner, sample)
+        out: Output = output(self.method, state.inner, sample)
         left = state.pending
         if left.x == 0.0 and left.y == 0.0 and left.z == 0.0:
             return out

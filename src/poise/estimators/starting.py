@@ -24,7 +24,9 @@ def checked_start(core: Any, start_from: Any, bias: Vec3) -> Learned:
     if not isinstance(learned, Learned):
         raise MethodError(f"start_from: expected what was learned, or an attitude that has it, found {learned!r}")
     if not hasattr(core, "start_from"):
-        raise MethodError(f"start_from: {type(core).__name__} learns nothing about the sensors, and so cannot start from it")
+        raise MethodError(
+            f"start_from: {type(core).__name__} learns nothing about the sensors, and so cannot start from it"
+        )
     if any(bias):
         raise MethodError("bias and start_from both say the gyroscope's bias; give one")
     learned.check()

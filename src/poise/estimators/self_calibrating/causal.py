@@ -17,7 +17,7 @@ import numpy as np
 from poise.data.flags import GYR_CLIPPED, MAG_DISTURBED, REST
 from poise.data.learned import Learned
 from poise.data.packet import Output, Sample
-from poise.estimators.self_calibrating.learned import check_start, take_over, without_iron
+from poise.estimators.self_calibrating.learned import check_start, doubts, take_over, without_iron
 from poise.estimators.self_calibrating.learned import learned as known_by_now
 from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
@@ -250,6 +250,10 @@ class SelfCalibrating(NamedTuple):
         """Go on from *learned*, that of the same sensor, in a state that has begun with its bias."""
         take_over(state.P, learned, self.initial_iron)
 
+    def doubts(self, before: Learned, after: Learned) -> list[str]:
+        """What speaks against *before*, which it started from, being of the sensor of *after*: a sentence each."""
+        return doubts(before, after)
+
 
 @compiled
 def _sigma(variance: float) -> float:
@@ -305,7 +309,9 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     )
     grow(P, s, noise)
     add_clipping(P, s.clipped, 0.4 * method.gyr_range)
-    if not state.begun and known.acc_delay == 0.0:  # not known from before: half a sampling interval, whether a sample is the mean before its stamp or around it
+    if (
+        not state.begun and known.acc_delay == 0.0
+    ):  # not known from before: half a sampling interval, whether a sample is the mean before its stamp or around it
         P[ACC_DELAY, ACC_DELAY] += (0.5 * T / s.samples) ** 2
     q = state.attitude if state.begun else levelled(method, state.attitude, s)
     force = s.force if state.begun else rotate(q * conjugate(state.attitude), s.force)

@@ -30,11 +30,16 @@ from poise.math.vectors import ZERO, Vec3, norm
 
 METHOD = "SelfCalibrating"
 # What may change between two recordings of one sensor, as standard deviations added to each number's own.
-BIAS_GROWTH = radians(0.2)  # rad/s: 0.02 to 0.05 deg/s a kelvin, some kelvin, and what differs from one turn-on to the next
-SCALE_GROWTH = 1.5e-3  # 0.02 to 0.05 % a kelvin, and the share of the range that a rate is off its line: 0.1 %
-IRON_GROWTH = 0.01  # lengths of the field: offset of the magnetometer, and what lies beside it
-MAG_DELAY_GROWTH = 1e-3  # s: two clocks that start anew, beside what firmware and filters fix
-ACC_DELAY_GROWTH = 3e-4  # s
+GROWTH = {
+    "gyr_bias": radians(
+        0.2
+    ),  # rad/s: 0.02 to 0.05 deg/s a kelvin, some kelvin, and what one turn-on differs from the next
+    "gyr_scale": 1.5e-3,  # 0.02 to 0.05 % a kelvin, and 0.1 % that a rate is off its straight line
+    "hard_iron": 0.01,  # lengths of the field: offset of the magnetometer, and what lies beside it
+    "mag_delay": 1e-3,  # s: two clocks that start anew; firmware and filters stay
+    "acc_delay": 3e-4,  # s
+}
+_DOUBTED = 3.0  # sigmas
 _UNIT = "of the magnetometer"  # whatever that is: only directions count
 _LIKE = 4.0  # the Earth's field is 22 to 67 µT, so no two places differ by more; another unit does
 _PLACES = {
@@ -126,11 +131,9 @@ def take_over(P: Floats, learned: Learned, expected_iron: float) -> None:
     if learned.covariance is not None:
         at = [places[name] for name in learned.states]
         P[np.ix_(at, at)] = learned.covariance / np.outer(size[at], size[at])
-    growth = {"gyr_bias": BIAS_GROWTH, "gyr_scale": SCALE_GROWTH, "acc_delay": ACC_DELAY_GROWTH,
-              "hard_iron": IRON_GROWTH, "mag_delay": MAG_DELAY_GROWTH}  # fmt: skip
     for name in kept:
         for i in _PLACES[name]:
-            P[i, i] += growth[name] ** 2
+            P[i, i] += GROWTH[name] ** 2
     if "hard_iron" in kept:
         _weigh_iron(P, expected_iron)
 
@@ -169,6 +172,26 @@ def without_iron(P: Floats, known: Sensor, seen: Vec3, to_iron: Mat3, sigma: flo
     if not like:
         forget(P, IRON, 3, sigma * sigma)
     return field
+
+
+def doubts(before: Learned, after: Learned) -> list[str]:
+    """What speaks against *before*, which a recording was started from, being of its sensor, now that *after* is known."""
+    names, values, sigma = before.numbers()
+    found = dict(zip(*after.numbers()[:2], strict=True))
+    told = []
+    for name, was, deviation in zip(names, values, sigma, strict=True):
+        quantity = next((key for key in (*_PLACES, "field") if name.startswith(key)), "")
+        if quantity in ("gyr_bias", "gyr_scale", "acc_delay", "mag_delay") and name in found:
+            expected = float(np.hypot(deviation, GROWTH[quantity]))
+            if abs(found[name] - was) > _DOUBTED * expected:
+                unit = before[quantity]["unit"]
+                told.append(f"{name} was {was:.3g} ± {expected:.2g} {unit}, found {found[name]:.3g}")
+    lengths = _length(before), _length(after)
+    if min(lengths) > 0.0 and not 1.0 / _LIKE < lengths[0] / lengths[1] < _LIKE:
+        told.append(
+            f"the field was {lengths[0]:.3g} long, here {lengths[1]:.3g}: another unit? The hard iron was left out"
+        )
+    return told
 
 
 def _length(learned: Learned) -> float:
