@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from math import isfinite, nan
+from math import inf, isfinite, nan
 from typing import Any, Self
 
 import numpy as np
@@ -408,10 +408,10 @@ def _innermost(state: Any) -> Any:
 
 
 def _slewed(method: Any, slew: float | None) -> Any:
-    if slew is None or isinstance(method, Slewed):
-        if slew is not None:
-            raise MethodError("slew: the method given is slewed already")
+    if slew is None or slew == inf:
         return method
+    if isinstance(method, Slewed):
+        raise MethodError("slew: the method given is slewed already")
     return Slewed(method, slew, float(getattr(_core(method), "lead", 0.0)))
 
 
