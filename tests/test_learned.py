@@ -358,7 +358,9 @@ def test_another_sensor_is_doubted() -> None:
     found = poise.estimate(FLAGSHIP, other, start_from=known()).learned
     same = poise.estimate(FLAGSHIP, made(5), start_from=known()).learned
     assert found is not None and same is not None
-    assert any(text.startswith("gyr_bias_x was 0.0298 ± 0.0035 rad/s, found -0.02") for text in FLAGSHIP.doubts(known(), found))
+    assert any(
+        text.startswith("gyr_bias_x was 0.0298 ± 0.0035 rad/s, found -0.02") for text in FLAGSHIP.doubts(known(), found)
+    )
     assert FLAGSHIP.doubts(known(), same) == []
 
 

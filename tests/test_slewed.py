@@ -208,6 +208,33 @@ def test_a_copy_goes_on_alike_and_another_bound_is_another_stream() -> None:
         poise.Stream(SIMPLE, slew=radians(4.0)).restore(saved)
 
 
+@both
+@settings(max_examples=15, deadline=None)
+@given(data=st.data())
+def test_no_bytes_from_a_sensor_make_it_non_finite(method: Any, data: st.DataObject) -> None:
+    values = st.sampled_from([0.0, -0.0, 1e-310, 1e-30, 1.0, -9.8, 1e30, np.inf, -np.inf, np.nan])
+    rows = data.draw(st.lists(st.lists(values, min_size=10, max_size=10), min_size=1, max_size=12))
+    r, wild, stream = made(), np.array(rows), poise.Stream(method, slew=radians(2.0))
+    stream.update(Packet(r.time[:50], r.gyr[:50], r.acc[:50], r.mag[:50]))
+    stream.update(Packet(wild[:, 0], wild[:, 1:4], wild[:, 4:7], wild[:, 7:10]))
+    after = stream.update(Packet(r.time[50:100], r.gyr[50:100], r.acc[50:100], r.mag[50:100]))
+    assert np.isfinite(after.table[:, :10]).all()
+    assert np.isfinite(stream.pending).all()
+
+
+@both
+def test_empty_and_single_rows(method: Any) -> None:
+    assert len(poise.estimate(method, made()[:0], slew=radians(2.0))) == 0
+    assert same_bits(poise.estimate(method, made()[:1], slew=radians(2.0)), poise.estimate(method, made()[:1]))
+
+
+@both
+def test_without_the_guard_it_slews_too(method: Any) -> None:
+    clean = made()[:1000]
+    away, dt = beside_the_rate(poise.estimate(method, clean, guard=False, slew=radians(0.5)))
+    assert (away <= radians(0.5) * dt + 2e-9).all()
+
+
 _PLAIN = """
 import sys, numpy, poise
 from poise.simulation import Sensor, forearm, measure
