@@ -19,6 +19,7 @@ class State(NamedTuple):
     inner: Any
     given: Quat  # body to Earth: the attitude that is given out, before the method's lead
     pending: Vec3  # rad, about the Earth's axes: the turn from there to the method's attitude
+    own: Output  # what the method itself says: it is asked once a sample
 
 
 class Slewed(NamedTuple):
@@ -40,27 +41,26 @@ class Slewed(NamedTuple):
     def start(self, sample: Sample, bias: Vec3) -> State:
         inner = start(self.method, sample, bias)
         out = output(self.method, inner, sample)
-        return State(inner, _at_sample(self, out), ZERO)
+        return State(inner, _at_sample(self, out), ZERO, out)
 
     def step(self, state: State, sample: Sample) -> State:
         inner = step(self.method, state.inner, sample)
         out = output(self.method, inner, sample)
         q = _at_sample(self, out)
         if out.flags & (INVALID | RESET) != 0 or not (isfinite(state.given.w) and isfinite(q.w)):
-            return State(inner, q, ZERO)
+            return State(inner, q, ZERO, out)
         dt = 0.0 if out.flags & TIME_DISORDER != 0 or not sample.dt > 0.0 else sample.dt
         turned = state.given * exp(dt * out.rate)
         apart = _turn_of(q * conjugate(turned))
         angle, most = norm(apart), self.rate * dt
         if angle <= max(most, _NOTHING):
-            return State(inner, q, ZERO)
+            return State(inner, q, ZERO, out)
         share = most / angle
-        return State(inner, renormalized(exp(share * apart) * turned), (1.0 - share) * apart)
+        return State(inner, renormalized(exp(share * apart) * turned), (1.0 - share) * apart, out)
 
     def output(self, state: State, sample: Sample) -> Output:
         """What the method says, at the attitude given out; sigma² about each of the Earth's axes with pending² added."""
-        out: Output = output(self.method, state.inner, sample)
-        left = state.pending
+        out, left = state.own, state.pending
         if left.x == 0.0 and left.y == 0.0 and left.z == 0.0:
             return out
         q = state.given if self.lead == 0.0 else state.given * exp(self.lead * out.rate)

@@ -17,7 +17,7 @@ import numpy as np
 from poise.data.flags import GYR_CLIPPED, MAG_DISTURBED, REST
 from poise.data.learned import Learned
 from poise.data.packet import Output, Sample
-from poise.estimators.self_calibrating.learned import check_start, doubts, take_over, without_iron
+from poise.estimators.self_calibrating.learned import check_start, doubts, iron_from_before, take_over
 from poise.estimators.self_calibrating.learned import learned as known_by_now
 from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
@@ -309,9 +309,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     )
     grow(P, s, noise)
     add_clipping(P, s.clipped, 0.4 * method.gyr_range)
-    if (
-        not state.begun and known.acc_delay == 0.0
-    ):  # not known from before: half a sampling interval, whether a sample is the mean before its stamp or around it
+    if not state.begun and known.acc_delay == 0.0:  # half an interval: whether a sample is the mean before its stamp
         P[ACC_DELAY, ACC_DELAY] += (0.5 * T / s.samples) ** 2
     q = state.attitude if state.begun else levelled(method, state.attitude, s)
     force = s.force if state.begun else rotate(q * conjugate(state.attitude), s.force)
@@ -335,9 +333,11 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     field, length, spread, iron = known.field, known.length, known.spread, known.iron
     if s.mags > 0.0:
         e = (1.0 / s.mags) * s.off
-        if length < 0.0:  # a hard iron known from before, in lengths of the field there
-            e = without_iron(P, known, e, (1.0 / s.mags) * s.to_iron, method.initial_iron)
-            iron = vector(P, SENSOR, 15)
+        if length < 0.0:  # a hard iron from before, in lengths of the field there
+            held = iron_from_before(known, norm(e))
+            there: Vec3 = (1.0 / s.mags) * s.to_iron @ held
+            e = e - there
+            iron = held / norm(e)
         if not state.begun:
             e = rotate(q * conjugate(state.attitude), e)
         if length <= 0.0:

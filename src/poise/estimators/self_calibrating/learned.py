@@ -15,18 +15,16 @@ from poise.estimators.self_calibrating.model import (
     IRON,
     MAG_DELAY,
     SCALE,
-    SENSOR,
     SIZE,
     Floats,
     Sensor,
     forget,
-    put,
     put_sensor,
     sensor_of,
 )
 from poise.math.compiled import compiled
 from poise.math.matrices import Mat3
-from poise.math.vectors import ZERO, Vec3, norm
+from poise.math.vectors import ZERO, Vec3
 
 METHOD = "SelfCalibrating"
 # What may change between two recordings of one sensor, as standard deviations added to each number's own.
@@ -110,7 +108,8 @@ def take_over(P: Floats, learned: Learned, expected_iron: float) -> None:
     """Begin with *learned*, each number as sure as it was, less what may have changed since; the bias is in the state.
 
     Its correlations come along: several numbers may be known together, none of them alone. The field is of the place and
-    stays behind; the hard iron is kept in lengths of that field, told by a negative length, until there is one here.
+    stays behind; the hard iron is kept in lengths of that field, told by a negative length, until there is one here. Its
+    sigma remains that share of a field.
     """
     kept, size = [name for name in _PLACES if name in learned], np.ones(SIZE)
     known = sensor_of(P)
@@ -151,27 +150,9 @@ def _weigh_iron(P: Floats, expected: float) -> None:
 
 
 @compiled
-def without_iron(P: Floats, known: Sensor, seen: Vec3, to_iron: Mat3, sigma: float) -> Vec3:
-    """The first mean field, less a hard iron from before; that, and its P, become lengths of this field.
-
-    One that was known in another unit is nothing known. (On the way back λ is not rescaled with it: nothing before the
-    first field depends on the iron, but through what it was correlated with.)
-    """
-    like = 1.0 / _LIKE < norm(seen) / -known.length < _LIKE
-    held = -known.length * known.iron if like else ZERO
-    there: Vec3 = to_iron @ held
-    field = seen - there
-    length = norm(field)
-    put(P, SENSOR, 15, held / length)
-    share = -known.length / length
-    for i in range(IRON, IRON + 3):
-        for j in range(SIZE):
-            P[i, j] *= share
-        for j in range(SIZE):
-            P[j, i] *= share
-    if not like:
-        forget(P, IRON, 3, sigma * sigma)
-    return field
+def iron_from_before(known: Sensor, seen: float) -> Vec3:
+    """The hard iron in the magnetometer's unit, where the field's length *seen* here is of that unit: else nothing."""
+    return -known.length * known.iron if 1.0 / _LIKE < seen / -known.length < _LIKE else ZERO
 
 
 def doubts(before: Learned, after: Learned) -> list[str]:
