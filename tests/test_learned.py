@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 import pickle
+import subprocess
+import sys
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -328,6 +331,24 @@ def test_a_stream_goes_on_alike_in_another_process() -> None:
     stream = pickle.loads(pickle.dumps(stream))
     parts.append(stream.update(Packet(r.time[300:], r.gyr[300:], r.acc[300:], r.mag[300:])).table)
     assert np.concatenate(parts).tobytes() == whole.table.tobytes()
+
+
+_PLAIN = """
+import sys, numpy, poise
+r = poise.read(sys.argv[1])
+numpy.save(sys.argv[3], poise.estimate(poise.SelfCalibrating(), r, start_from=poise.read_learned(sys.argv[2])).table)
+"""
+
+
+def test_compiled_and_plain_python_agree(tmp_path: Path) -> None:
+    recording, sensor, out = tmp_path / "r.npz", tmp_path / "sensor.json", tmp_path / "plain.npy"
+    poise.write(made(5)[:1500], recording)
+    poise.write(known(), sensor)
+    environment = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
+    arguments = [sys.executable, "-c", _PLAIN, str(recording), str(sensor), str(out)]
+    subprocess.run(arguments, check=True, env=environment, timeout=120)
+    compiled = poise.estimate(FLAGSHIP, made(5)[:1500], start_from=known())
+    np.testing.assert_allclose(np.load(out), compiled.table, rtol=0, atol=1e-9)
 
 
 def test_what_is_no_start_is_refused() -> None:
