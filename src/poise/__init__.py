@@ -21,12 +21,15 @@ _HOME = {
     "Flag": "poise.data.flags",
     "Gated": "poise.estimators.gated",
     "Guard": "poise.estimators.guard",
+    "Learned": "poise.data.learned",
+    "Learning": "poise.data.learned",
     "METHODS": "poise.estimators",
     "Packet": "poise.data.packet",
     "PoiseError": "poise.errors",
     "Recording": "poise.data.recording",
     "RestBias": "poise.estimators.rest_bias",
     "SelfCalibrating": "poise.estimators.self_calibrating.causal",
+    "Slewed": "poise.estimators.slewed",
     "Stream": "poise.estimators.engine",
     "Tilt": "poise.estimators.tilt",
     "TwoStage": "poise.estimators.two_stage",
@@ -35,6 +38,7 @@ _HOME = {
     "evaluate": "poise.evaluation",
     "read": "poise.formats",
     "read_attitude": "poise.formats",
+    "read_learned": "poise.formats",
     "smooth": "poise.estimators.self_calibrating.smoother",
     "sniff": "poise.formats",
     "write": "poise.formats",
@@ -47,6 +51,8 @@ if TYPE_CHECKING:
     from poise.comparison import compare as compare
     from poise.data.attitude import Attitude as Attitude
     from poise.data.flags import Flag as Flag
+    from poise.data.learned import Learned as Learned
+    from poise.data.learned import Learning as Learning
     from poise.data.packet import Packet as Packet
     from poise.data.recording import Recording as Recording
     from poise.errors import PoiseError as PoiseError
@@ -60,12 +66,14 @@ if TYPE_CHECKING:
     from poise.estimators.rest_bias import RestBias as RestBias
     from poise.estimators.self_calibrating.causal import SelfCalibrating as SelfCalibrating
     from poise.estimators.self_calibrating.smoother import smooth as smooth
+    from poise.estimators.slewed import Slewed as Slewed
     from poise.estimators.tilt import Tilt as Tilt
     from poise.estimators.two_stage import TwoStage as TwoStage
     from poise.evaluation import Errors as Errors
     from poise.evaluation import evaluate as evaluate
     from poise.formats import read as read
     from poise.formats import read_attitude as read_attitude
+    from poise.formats import read_learned as read_learned
     from poise.formats import sniff as sniff
     from poise.formats import write as write
 

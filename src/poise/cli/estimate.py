@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from math import degrees, inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -19,6 +20,13 @@ if TYPE_CHECKING:
 _WORTH_SAYING = 0.9  # a smaller share of valid rows is pointed out
 _WRITABLE = (".parquet", ".csv", ".tum", ".txt", ".bag", ".mcap")
 _ROS = ("bag", "mcap", "ros2")
+_OVER_TIME = (".csv", ".parquet", *PICTURES)
+_READABLE = {  # factor and unit to print a quantity in, and how many digits behind the point
+    "gyr_bias": (degrees(1.0), "deg/s", 4),
+    "gyr_scale": (100.0, "%", 3),
+    "acc_delay": (1e3, "ms", 2),
+    "mag_delay": (1e3, "ms", 2),
+}
 _Format = Literal["parquet", "csv", "tum", "bag", "mcap", "ros2"]
 
 
@@ -31,6 +39,9 @@ def estimate(
     plot: Path | None = None,
     frame: Literal["enu", "ned", "nwu"] = "enu",
     learned: Annotated[bool, Parameter(negative="")] = False,
+    learned_over_time: Path | None = None,
+    learned_every: float = 1.0,
+    save_learned: Path | None = None,
     json: Annotated[bool, Parameter(negative="")] = False,
     reading: Reading | None = None,
     running: Running | None = None,
@@ -60,6 +71,12 @@ def estimate(
         The Earth frame to write: east-north-up, north-east-down or north-west-up.
     learned
         Print what the method found out about the sensors: bias, scale, hard iron, delays (self-calibrating only).
+    learned_over_time
+        The same as it was known over time: a table (.csv, .parquet) or a picture (.png, .svg, .pdf); a folder for several.
+    learned_every
+        Seconds between the rows of that table.
+    save_learned
+        Keep what was learned (.json) for --start-from of the next recording of that sensor; a folder for several.
     json
         Print the summary as JSON.
     """
@@ -71,14 +88,29 @@ def estimate(
         if frame != "enu" and any(_is_ros(target, format) for target in outputs.values()):
             usage(f"--frame {frame}: an orientation in a ROS bag is body to east-north-up (REP 103); leave --frame out")
         pictures = targets(files, plot, ".attitude.png", PICTURES, "--plot") if plot else {}
+        running.before()
+        if (learned_over_time or save_learned) and not hasattr(running.build(), "learned"):
+            usage(f"{running.method} learns nothing about the sensors; take --method self-calibrating")
+        if not 0.0 < learned_every < inf:
+            usage(f"--learned-every {learned_every}: expected seconds above 0")
+        over_time = "--learned-over-time"
+        tables = targets(files, learned_over_time, ".learned.csv", _OVER_TIME, over_time) if learned_over_time else {}
+        kept = targets(files, save_learned, ".learned.json", (".json",), "--save-learned") if save_learned else {}
+        _apart(outputs, pictures, tables, kept)
 
         def work(file: Path, tell: Callable[[str, float], None]) -> dict[str, Any]:
             tell("reading", 0.0)
             recording = reading.read(file)
             tell("estimating (a first run compiles the method)", 0.2)
             n = max(len(recording), 1)
-            attitude = running.estimate(recording, progress=lambda done: tell("estimating", 0.2 + 0.6 * done / n))
-            return _finished(file, recording, attitude.to(frame), outputs[file], format, pictures.get(file), tell)
+            attitude = running.estimate(
+                recording,
+                progress=lambda done: tell("estimating", 0.2 + 0.6 * done / n),
+                learning=learned_every if tables else None,
+            )
+            result = _finished(file, recording, attitude.to(frame), outputs[file], format, pictures.get(file), tell)
+            result["doubts"] = running.doubts(attitude)
+            return result | _keep(attitude, recording, tables.get(file), kept.get(file))
 
         running.warm()
         results, refused = show.each(files, work)
@@ -135,6 +167,33 @@ def _finished(
     }
 
 
+def _keep(attitude: Attitude, recording: Recording, over_time: Path | None, kept: Path | None) -> dict[str, Any]:
+    """Write what was learned; where it went."""
+    from poise.formats import write
+
+    for place in filter(None, (over_time, kept)):
+        make_room(place)
+    if kept and attitude.learned is not None:
+        write(attitude.learned, kept)
+    if over_time and attitude.learning is not None:
+        if over_time.suffix.lower() in PICTURES:
+            from poise.plots import learning_figure, save_figure
+
+            save_figure(learning_figure(attitude.learning, title=recording.name), over_time)
+        else:
+            write(attitude.learning, over_time)
+    return {"learned_over_time": over_time and str(over_time), "learned_saved": kept and str(kept)}
+
+
+def _apart(*places: Mapping[Path, Path]) -> None:
+    """Raises :class:`UsageError` where two results would be written to one file."""
+    taken: set[Path] = set()
+    for place in (place for each in places for place in each.values()):
+        if place.resolve() in taken:
+            usage(f"two results would both be written to {place}; give them two names")
+        taken.add(place.resolve())
+
+
 def _report(results: list[dict[str, Any]], method: str) -> None:
     from poise.estimators import judged_by
 
@@ -163,8 +222,15 @@ def _report(results: list[dict[str, Any]], method: str) -> None:
             )
         for text in result["notes"]:
             show.note(f"{Path(result['file']).name}: {text}")
-        if result["plot"]:
-            show.note(f"{Path(result['file']).name}: picture in {result['plot']}")
+        for text in result["doubts"]:
+            show.note(f"{Path(result['file']).name}: was --start-from of another sensor? {text}")
+        for what, key in (
+            ("picture", "plot"),
+            ("over time", "learned_over_time"),
+            ("what was learned", "learned_saved"),
+        ):
+            if result[key]:
+                show.note(f"{Path(result['file']).name}: {what} in {result[key]}")
 
 
 def _report_learned(results: list[dict[str, Any]], method: str) -> None:
@@ -173,17 +239,18 @@ def _report_learned(results: list[dict[str, Any]], method: str) -> None:
         if result["learned"] is None:
             show.note(f"{name}: {method} learns nothing about the sensors that it could tell; take self-calibrating")
             continue
-        rows = [
-            [what, _numbers(found["value"]), _numbers(found["sigma"]), found["unit"]]
-            for what, found in result["learned"].items()
-        ]
+        rows = []
+        for what, found in result["learned"].items():
+            factor, unit, digits = _READABLE.get(what, (1.0, found["unit"], 2))
+            rows.append([what, *(_numbers(found[key], factor, digits) for key in ("value", "sigma")), unit])
         show.table(f"{name}: learned", ["", "value", "sigma", "unit"], rows)
 
 
-def _numbers(values: Any) -> str:
+def _numbers(values: Any, factor: float, digits: int) -> str:
     if isinstance(values, list):
-        return ("; " if values and isinstance(values[0], list) else " ").join(map(_numbers, values))
-    return f"{values:.4g}"
+        between = "; " if values and isinstance(values[0], list) else " "
+        return between.join(_numbers(value, factor, digits) for value in values)
+    return f"{factor * values:.{digits}f}"
 
 
 def _ending(output: Path | None, format: _Format | None) -> str:

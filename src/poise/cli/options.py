@@ -17,6 +17,7 @@ from poise.errors import FormatError, PoiseError
 
 if TYPE_CHECKING:
     from poise.data.attitude import Attitude
+    from poise.data.learned import Learned
     from poise.data.recording import Recording
 
 FILE = Group("What the file does not say", sort_key=1)
@@ -137,6 +138,12 @@ class Running:
     offline: Annotated[bool, Parameter(negative="")] = False
     """Use the whole recording for every row, what comes after it too (self-calibrating only)."""
 
+    start_from: Path | None = None
+    """What was learned of the same sensor before: a file of --save-learned, or an attitude that poise wrote."""
+
+    slew: float | None = None
+    """Degrees a second: corrections turn the attitude no faster than that, beside the gyroscope's own turning."""
+
     def build(self) -> Any:
         """The method with its parameters; :class:`UsageError` where they cannot be."""
         from poise.estimators import METHODS
@@ -159,6 +166,12 @@ class Running:
             chosen["declination"] = angle
         if self.offline and self.method != "self-calibrating":
             usage(f"--offline goes with --method self-calibrating, not with {self.method}")
+        if self.start_from is not None and not hasattr(cls, "start_from"):
+            usage(f"--start-from goes with --method self-calibrating, not with {self.method}, which learns nothing")
+        if self.slew is not None and not 0.0 <= self.slew < math.inf:
+            usage(f"--slew {self.slew}: expected degrees a second, 0 or more")
+        if self.slew is not None and self.offline:
+            usage("--slew bounds corrections as they come; --offline knows them all before: give one")
         try:
             method = cls(**chosen)
             prepared(method)
@@ -171,19 +184,45 @@ class Running:
         recording: Recording,
         start: Attitude | None = None,
         progress: Callable[[int], None] | None = None,
+        learning: float | None = None,
     ) -> Attitude:
         from poise.estimators.engine import estimate
 
+        known: dict[str, Any] = {"start_from": self.before(), "learning": learning, "progress": progress}
         if self.offline:
             from poise.estimators.self_calibrating.smoother import smooth
 
-            attitude = smooth(recording, self.build(), start, progress=progress)
+            attitude = smooth(recording, self.build(), start, **known)
         else:
-            attitude = estimate(self.build(), recording, start, rest_bias=self.rest_bias, progress=progress)
+            slew = None if self.slew is None else math.radians(self.slew)
+            attitude = estimate(self.build(), recording, start, rest_bias=self.rest_bias, slew=slew, **known)
         told = self.declination is not None or self.place is not None
         if told and attitude.heading_reference == "magnetic":  # a declination of zero is a declination
             attitude = replace(attitude, heading_reference="true")
         return attitude
+
+    def before(self) -> Learned | None:
+        """What --start-from holds; :class:`UsageError` where that is nothing to start from."""
+        if self.start_from is None:
+            return None
+        from poise.formats import read_learned
+
+        try:
+            found = read_learned(self.start_from)
+            found.check()
+            self.build().check_start(found)
+        except (PoiseError, OSError) as error:
+            text = str(error).removeprefix(f"{self.start_from}: ").removeprefix("start_from: ")
+            usage(f"--start-from {self.start_from}: {text}")
+        return found
+
+    def doubts(self, attitude: Attitude) -> list[str]:
+        """What speaks against --start-from being of the sensor of *attitude*."""
+        before = self.before()
+        if before is None or attitude.learned is None:
+            return []
+        found: list[str] = self.build().doubts(before, attitude.learned)
+        return found
 
     def warm(self) -> None:
         """Load (or, the first time, compile) the method in the background, while a file is read."""

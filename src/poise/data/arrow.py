@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from poise.errors import RecordingError
+
 if TYPE_CHECKING:
     import pyarrow
 
@@ -20,6 +22,19 @@ def table(columns: Mapping[str, NDArray[Any]]) -> pyarrow.Table:
     import pyarrow
 
     return pyarrow.Table.from_arrays([_array(values) for values in columns.values()], names=list(columns))
+
+
+def frame(columns: Mapping[str, NDArray[Any]], backend: str) -> Any:
+    """A pandas or polars data frame of *columns*. Raises :class:`RecordingError` for another *backend*."""
+    if backend == "pandas":
+        import pandas
+
+        return pandas.DataFrame(columns)
+    if backend == "polars":
+        import polars
+
+        return polars.DataFrame(columns)
+    raise RecordingError(f'backend {backend!r} not known; expected "pandas" or "polars"')
 
 
 def _array(values: NDArray[Any]) -> Any:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import pyarrow
     from scipy.spatial.transform import Rotation
 
+    from poise.data.learned import Learned, Learning
     from poise.data.recording import Recording
 
 Floats = NDArray[np.float64]
@@ -79,8 +80,10 @@ class Attitude:
     frame: Frame = "enu"
     """the frame that the quaternion turns body vectors into"""
     provenance: Provenance = Provenance()
-    learned: Mapping[str, Any] | None = None
+    learned: Learned | None = None
     """what the method found out about the sensors by the last row, for one that does: name → value, sigma, unit"""
+    learning: Learning | None = None
+    """the same over time, where ``estimate`` or ``smooth`` was asked for it"""
 
     @classmethod
     def of(
@@ -321,6 +324,7 @@ class Attitude:
         """What a file must say beside the columns: frame, order, units, method, parameters, version, source."""
         from poise.version import __version__
 
+        learned = {} if self.learned is None else {"poise.learned": self.learned.as_json()}
         return {
             "poise.kind": "attitude",
             "poise.version": __version__,
@@ -333,6 +337,7 @@ class Attitude:
             "poise.parameters": json.dumps(dict(self.provenance.parameters)),
             "poise.source": self.provenance.source,
             "poise.source_sha256": self.provenance.source_hash,
+            **learned,
         }
 
     def to_arrow(self) -> pyarrow.Table:
@@ -341,15 +346,7 @@ class Attitude:
 
     def to_frame(self, backend: Literal["pandas", "polars"] = "pandas") -> Any:
         """A pandas or polars data frame of :meth:`columns`."""
-        if backend == "pandas":
-            import pandas
-
-            return pandas.DataFrame(self.columns())
-        if backend == "polars":
-            import polars
-
-            return polars.DataFrame(self.columns())
-        raise RecordingError(f'backend {backend!r} not known; expected "pandas" or "polars"')
+        return arrow.frame(self.columns(), backend)
 
     def reasons(self, bridge: float = 0.25) -> list[Reason]:
         """Every flagged stretch with its start, end and a sentence, in order of time.

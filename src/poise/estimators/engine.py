@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from math import isfinite, nan
+from math import inf, isfinite, nan
 from typing import Any, Self
 
 import numpy as np
@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from poise.data.attitude import COLUMNS, QUAT, Attitude, HeadingReference, Provenance
 from poise.data.flags import SILENT
+from poise.data.learned import Learned, Learning
 from poise.data.packet import Packet
 from poise.data.recording import STANDARD_GRAVITY, Recording, samples
 from poise.errors import MethodError, RecordingError, StateError
@@ -40,6 +41,8 @@ from poise.estimators.loop import (
 from poise.estimators.parameters import as_dict, prepared
 from poise.estimators.rest_bias import RestBias
 from poise.estimators.saving import copied, filled, flat, sealed, unsealed
+from poise.estimators.slewed import Slewed
+from poise.estimators.starting import checked_start, every
 from poise.math import arrays
 from poise.math.compiled import CompileError, direct
 from poise.math.quaternions import Quat
@@ -59,6 +62,9 @@ class Stream:
     default the first usable accelerometer and magnetometer samples decide. *bias* (rad/s) is the gyroscope's, where it
     is known. *guard* and *rest_bias* switch the wrappers off; a method given inside a ``Guard`` is taken as it is. Without
     the guard, stamps must rise and samples be finite: a method divides by the time between them.
+
+    *start_from* is what was learned of the same sensor before (:class:`Learned`, or an attitude that has it). *slew* (rad/s)
+    bounds how fast corrections turn the attitude given out: see :class:`Slewed` and :attr:`pending`.
     """
 
     def __init__(
@@ -70,16 +76,21 @@ class Stream:
         guard: bool = True,
         rest_bias: bool = True,
         silence: float = 0.05,
+        start_from: Learned | Attitude | None = None,
+        slew: float | None = None,
     ) -> None:
         self.method = method
-        self._made_of = (method, start, tuple(_three("bias", bias)), guard, rest_bias, silence)
-        self._running = prepared(_wrapped(method, guard, rest_bias))
+        self._made_of = (method, start, tuple(_three("bias", bias)), guard, rest_bias, silence, start_from, slew)
+        self._running = prepared(_slewed(_wrapped(method, guard, rest_bias), slew))
         if not isinstance(silence, (int, float)) or not silence >= 0.0:
             raise MethodError(f"silence: expected seconds, found {silence!r}")
         self._declination = float(getattr(_core(method), "declination", 0.0))
         self._provenance = Provenance(_name(method), as_dict(self._running))
         self._start = None if start is None else _start_quat(start)
         self._bias = Vec3(*_three("bias", bias))
+        self._known = None if start_from is None else checked_start(_core(method), start_from, self._bias)
+        if self._known is not None:
+            self._bias = Vec3(*self._known["gyr_bias"]["value"])
         self._silence = silence
         self._memory: Any = None
         self._has_declination = hasattr(_core(method), "declination")
@@ -153,6 +164,8 @@ class Stream:
         else:
             self._memory = begin_at(self._running, self._start, self._declination, self._bias, self._aside)
             self._aside[LAST : LAST + 4] = self._start
+        if self._known is not None:  # the state's arrays are written into; its numbers hold the bias already
+            _core(self._running).start_from(_innermost(state_of(self._memory)), self._known)
 
     def check(self, now: float) -> Attitude:
         """The attitude at *now* (s, the packets' clock) without a new sample, one row; for a timer.
@@ -192,15 +205,19 @@ class Stream:
         return None if self._memory is None else copied(state_of(self._memory))
 
     @property
-    def learned(self) -> dict[str, Any] | None:
+    def learned(self) -> Learned | None:
         """What the method has found out about the sensors so far, where it does: name → value, sigma and unit."""
         core, state = _core(self._running), self.running_state
         if state is None or not hasattr(core, "learned"):
             return None
-        while hasattr(state, "inner"):
-            state = state.inner
-        found: dict[str, Any] = core.learned(state)
+        found: Learned = core.learned(_innermost(state))
         return found
+
+    @property
+    def pending(self) -> Floats:
+        """(3,) rad, about the Earth's axes: the turn from the attitude given out to the method's own; see *slew*."""
+        state = self.running_state
+        return np.array(getattr(state, "pending", (0.0, 0.0, 0.0)), float)
 
     @property
     def running_state(self) -> Any:
@@ -302,19 +319,24 @@ def estimate(
     bias: ArrayLike = (0.0, 0.0, 0.0),
     guard: bool = True,
     rest_bias: bool = True,
+    start_from: Learned | Attitude | None = None,
+    slew: float | None = None,
+    learning: float | None = None,
     progress: Callable[[int], None] | None = None,
 ) -> Attitude:
     """The attitude after every row of *recording*, in its order, by *method* (``TwoStage()``, ``AdaptiveGain()``, …).
 
-    Arguments as for :class:`Stream`; *progress* is called with the number of rows done so far.
+    Arguments as for :class:`Stream`; *learning* (s) is how often what is known of the sensors by then is taken down, for
+    ``attitude.learning``; *progress* is called with the number of rows done so far.
     Raises :class:`RecordingError` or :class:`MethodError` where the two cannot be used.
     """
     if not isinstance(recording, Recording):
         raise RecordingError(
             f"expected a Recording, found {type(recording).__name__}; see poise.read and poise.Recording"
         )
-    stream = Stream(at_gravity(method, recording.gravity), start, bias=bias, guard=guard, rest_bias=rest_bias)
-    return feed(stream, recording, _BLOCK, progress=progress)
+    method = at_gravity(method, recording.gravity)
+    stream = Stream(method, start, bias=bias, guard=guard, rest_bias=rest_bias, start_from=start_from, slew=slew)
+    return feed(stream, recording, _BLOCK, learning=learning, progress=progress)
 
 
 def feed(
@@ -323,29 +345,46 @@ def feed(
     block: int,
     *,
     after: Callable[[], None] | None = None,
+    learning: float | None = None,
     progress: Callable[[int], None] | None = None,
 ) -> Attitude:
     """What a fresh *stream* says about *recording*, *block* rows at a time; *after* is called behind each block."""
     n = len(recording)
+    cuts = frozenset() if learning is None else frozenset(every(learning, recording.time))
+    times: list[float] = []
+    found: list[tuple[list[str], Floats, Floats]] = []
     table, flags = np.empty((n, COLUMNS)), np.empty(n, np.uint32)
     columns = tuple(np.ascontiguousarray(getattr(recording, name)) for name in ROW_COLUMNS)
     buffer = np.empty((min(block, n), WIDTH))
-    for first in range(0, n, block):
-        part = slice(first, min(first + block, n))
-        rows = buffer[: part.stop - first]
+    first = 0
+    for last in sorted({*range(block, n, block), *cuts, n} - {0}):
+        part = slice(first, last)
+        first = last
+        rows = buffer[: last - part.start]
         pack(rows, *(column[part] for column in columns))
         stream._see_mag(rows)
         stream._advance_into(rows, table[part], flags[part])
         if after is not None:
             after()
+        if last in cuts and (learned := stream.learned) is not None:
+            times.append(float(recording.time[last - 1]))
+            found.append(learned.numbers())
         if progress is not None:
-            progress(part.stop)
+            progress(last)
     provenance = replace(stream._provenance, source=recording.source, source_hash=recording.source_hash)
-    return Attitude(recording.time.copy(), table, flags, stream._heading, "enu", provenance, stream.learned)
+    last_known = stream.learned
+    if last_known is not None:
+        last_known = replace(last_known, source=recording.name)
+    over_time = None if learning is None or last_known is None else Learning.of(times, found, last_known)
+    return Attitude(recording.time.copy(), table, flags, stream._heading, "enu", provenance, last_known, over_time)
 
 
-def _revived(method: Any, start: Any, bias: Any, guard: bool, rest_bias: bool, silence: float, saved: bytes) -> Stream:
-    return Stream(method, start, bias=bias, guard=guard, rest_bias=rest_bias, silence=silence).restore(saved)
+def _revived(method: Any, start: Any, *made_of: Any) -> Stream:
+    bias, guard, rest_bias, silence, start_from, slew, saved = made_of
+    stream = Stream(
+        method, start, bias=bias, guard=guard, rest_bias=rest_bias, silence=silence, start_from=start_from, slew=slew
+    )
+    return stream.restore(saved)
 
 
 def _space() -> Iterator[tuple[Floats, Floats, NDArray[np.uint32]]]:
@@ -356,15 +395,32 @@ def _space() -> Iterator[tuple[Floats, Floats, NDArray[np.uint32]]]:
 
 def _core(method: Any) -> Any:
     """The method inside its wrappers."""
-    while isinstance(method, (Guard, RestBias)):
+    while isinstance(method, (Guard, RestBias, Slewed)):
         method = method.method
     return method
+
+
+def _innermost(state: Any) -> Any:
+    """The state of the method inside its wrappers."""
+    while hasattr(state, "inner"):
+        state = state.inner
+    return state
+
+
+def _slewed(method: Any, slew: float | None) -> Any:
+    if slew is None or slew == inf:
+        return method
+    if isinstance(method, Slewed):
+        raise MethodError("slew: the method given is slewed already")
+    return Slewed(method, slew, float(getattr(_core(method), "lead", 0.0)))
 
 
 def _wrapped(method: Any, guard: bool, rest_bias: bool) -> Any:
     prepared(method)  # a clear error about the method itself, before it is wrapped
     if isinstance(method, Guard):
         return method
+    if isinstance(method, Slewed):
+        return method._replace(method=_wrapped(method.method, guard, rest_bias))
     if rest_bias and not isinstance(method, RestBias) and not getattr(method, "learns_bias", False):
         method = RestBias(method)
     if not guard:
@@ -377,7 +433,7 @@ def _wrapped(method: Any, guard: bool, rest_bias: bool) -> Any:
 
 def at_gravity(method: Any, gravity: float) -> Any:
     """*method* with the recording's gravity, where it has one and was left at the usual."""
-    if gravity == STANDARD_GRAVITY or isinstance(method, (Guard, RestBias)):
+    if gravity == STANDARD_GRAVITY or isinstance(method, (Guard, RestBias, Slewed)):
         return method
     return method._replace(gravity=gravity) if getattr(method, "gravity", None) == STANDARD_GRAVITY else method
 

@@ -138,9 +138,7 @@ class Guard(NamedTuple):
         if state.started:
             flags |= RESET
             sample = _restart(self, before.attitude, sample, lost)
-            inner = restart(self.method, state.inner, sample, before.bias)
-        else:
-            inner = start(self.method, sample, before.bias)
+        inner = restart(self.method, state.inner, sample, before.bias)  # from the placeholder too: what it knew stays
         kept = state.aligned and (not state.mag_seen or not self.follows_mag)
         aligned = kept if state.started and not self.follows_mag else has_mag or (state.started and kept)
         flags |= 0 if aligned else HEADING_ARBITRARY

@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from poise.data.attitude import COLUMNS, QUAT, SIGMA, Attitude, Provenance
+from poise.data.learned import Learned
 from poise.errors import FormatError, RecordingError
 from poise.formats import bag, evidence, names, parquet, recognise, text, text_head, units
 from poise.formats.limits import Limits, Options
@@ -112,6 +114,7 @@ def _attitude(where: str, found: Mapping[str, Floats], facts: Mapping[str, str],
         "frame": facts.get(f"{prefix}frame", "enu"),
         "heading_reference": facts.get(f"{prefix}heading_reference", "arbitrary"),
         "provenance": _provenance(facts) if own else Provenance(),
+        "learned": Learned.of_json(facts["poise.learned"]) if own and "poise.learned" in facts else None,
     }
     if kept["frame"] not in ("enu", "ned", "nwu", "body"):
         raise FormatError(f"{where}: frame {kept['frame']!r} is not known; expected enu, ned, nwu or body")
@@ -123,7 +126,8 @@ def _attitude(where: str, found: Mapping[str, Floats], facts: Mapping[str, str],
         with np.errstate(invalid="ignore"):
             return Attitude(time, table, np.nan_to_num(found["flags"]).astype(np.uint32), **kept)
     quat = np.column_stack([found[name] for name in TABLE[QUAT]])
-    return reference(time, quat, **kept)
+    learned = kept.pop("learned")
+    return replace(reference(time, quat, **kept), learned=learned)
 
 
 def _seconds(where: str, time: Floats, named: str) -> Floats:

@@ -12,6 +12,7 @@ import numpy as np
 
 from poise.data import arrow
 from poise.data.attitude import Attitude
+from poise.data.learned import Learned, Learning
 from poise.data.recording import Recording
 from poise.errors import FormatError
 from poise.formats import bag_writing
@@ -29,19 +30,32 @@ _SUFFIXES = {
     ".npz": "npz",
     ".bag": "bag",
     ".mcap": "mcap",
+    ".json": "json",
 }
-_KINDS = {Attitude: ("parquet", "csv", "tum", *bag_writing.KINDS), Recording: ("parquet", "csv", "npz")}
+_KINDS: dict[type, tuple[str, ...]] = {
+    Attitude: ("parquet", "csv", "tum", *bag_writing.KINDS),
+    Recording: ("parquet", "csv", "npz"),
+    Learning: ("parquet", "csv"),
+    Learned: ("json",),
+}
+_WHAT = {
+    Attitude: "an attitude",
+    Recording: "a recording",
+    Learning: "what was learned over time",
+    Learned: "what was learned",
+}
 _BLOCK = 65_536  # rows
 
 
 def write(
-    thing: Attitude | Recording,
+    thing: Attitude | Recording | Learning | Learned,
     path: str | os.PathLike[str],
     format: str | None = None,
     *,
     recording: Recording | None = None,
 ) -> Path:
-    """Write an attitude (Parquet, CSV, TUM, ROS bag) or a recording (Parquet, CSV, npz); returns the path.
+    """Write an attitude (Parquet, CSV, TUM, ROS bag) or a recording (Parquet, CSV, npz), or what was learned (JSON) or is
+    known over time (Parquet, CSV); returns the path.
 
     The format is *format* or follows from the extension; "bag" is ROS 1, "mcap" one file and "ros2" a folder of ROS 2,
     which take the angular velocity and linear acceleration of the attitude's *recording* along.
@@ -49,14 +63,13 @@ def write(
     stood there before still stands.
     """
     path = Path(path)
-    allowed = next((kinds for kind, kinds in _KINDS.items() if isinstance(thing, kind)), None)
+    allowed = _KINDS.get(type(thing))
     if allowed is None:
         raise FormatError(f"{path}: expected an Attitude or a Recording to write, found {type(thing).__name__}")
     kind = format or _SUFFIXES.get(path.suffix.lower(), "")
     if kind not in allowed:
-        what = "an attitude" if isinstance(thing, Attitude) else "a recording"
         raise FormatError(
-            f"{path}: {kind or path.suffix or 'no extension'} is no format for {what}; "
+            f"{path}: {kind or path.suffix or 'no extension'} is no format for {_WHAT[type(thing)]}; "
             f"expected {', '.join(allowed)} (by extension or format=)"
         )
     if kind in bag_writing.KINDS and isinstance(thing, Attitude):
@@ -67,13 +80,15 @@ def write(
             _npz(thing, file)
         elif kind == "tum" and isinstance(thing, Attitude):
             _tum(thing, file)
+        elif isinstance(thing, Learned):
+            file.write(f"{thing.as_json(indent=2)}\n".encode())
         else:
             {"parquet": _parquet, "csv": _csv}[kind](thing, file)
     return path
 
 
-def _columns(thing: Attitude | Recording) -> dict[str, Any]:
-    if isinstance(thing, Attitude):
+def _columns(thing: Attitude | Recording | Learning) -> dict[str, Any]:
+    if not isinstance(thing, Recording):
         return dict(thing.columns())
     columns: dict[str, Any] = {"time (s)": thing.time}
     for sensor in SENSORS:
@@ -86,8 +101,8 @@ def _columns(thing: Attitude | Recording) -> dict[str, Any]:
     return columns
 
 
-def _facts(thing: Attitude | Recording) -> dict[str, str]:
-    if isinstance(thing, Attitude):
+def _facts(thing: Attitude | Recording | Learning) -> dict[str, str]:
+    if not isinstance(thing, Recording):
         return thing.metadata()
     from poise.version import __version__
 
@@ -105,13 +120,13 @@ def _facts(thing: Attitude | Recording) -> dict[str, str]:
     return facts
 
 
-def _tables(thing: Attitude | Recording) -> Iterator[Any]:
+def _tables(thing: Attitude | Recording | Learning) -> Iterator[Any]:
     """Arrow tables of a block of rows each; at least one."""
     for start in range(0, max(len(thing), 1), _BLOCK):
         yield arrow.table(_columns(thing[start : start + _BLOCK]))
 
 
-def _parquet(thing: Attitude | Recording, file: BinaryIO) -> None:
+def _parquet(thing: Attitude | Recording | Learning, file: BinaryIO) -> None:
     from pyarrow import parquet
 
     writer = None
@@ -126,7 +141,7 @@ def _parquet(thing: Attitude | Recording, file: BinaryIO) -> None:
         writer.close()
 
 
-def _csv(thing: Attitude | Recording, file: BinaryIO) -> None:
+def _csv(thing: Attitude | Recording | Learning, file: BinaryIO) -> None:
     names = list(_columns(thing))
     file.write(_comments(_facts(thing)) + (",".join(names) + "\n").encode())
     for table in _tables(thing):

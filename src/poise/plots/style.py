@@ -151,13 +151,13 @@ def name_panel(ax: Axes, name: str, unit: str) -> None:
     ax.set_ylabel(unit, fontsize=8.5, color=QUIET)
 
 
-def legend(ax: Axes) -> None:
-    """The names of the lines, beside the panel's title; below it in a narrow picture."""
+def legend(ax: Axes, most: int = 5) -> None:
+    """The names of the lines, *most* in a row, beside the panel's title; below it in a narrow picture."""
     narrow = is_narrow(ax.figure)
     if narrow:
         ax.set_title(ax.get_title(loc="left"), loc="left", fontsize=10.5, fontweight="bold", color=INK, pad=21)
     box = ax.legend(
-        loc="lower left" if narrow else "lower right", bbox_to_anchor=(0.0 if narrow else 1.0, 1.0), ncols=5,
+        loc="lower left" if narrow else "lower right", bbox_to_anchor=(0.0 if narrow else 1.0, 1.0), ncols=most,
         frameon=False, fontsize=8 if narrow else 9, labelcolor=INK, borderaxespad=0.1, borderpad=0.2,
         columnspacing=1.0 if narrow else 1.4, handlelength=1.2 if narrow else 1.8, handletextpad=0.5 if narrow else 0.8,
     )  # fmt: skip

@@ -10,12 +10,15 @@ Departures from the print: there is none; what was tried and left out stands on 
 from __future__ import annotations
 
 from math import atan2, cos, pi, radians, sqrt
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from poise.data.flags import GYR_CLIPPED, MAG_DISTURBED, REST
+from poise.data.learned import Learned
 from poise.data.packet import Output, Sample
+from poise.estimators.self_calibrating.learned import check_start, doubts, iron_from_before, take_over
+from poise.estimators.self_calibrating.learned import learned as known_by_now
 from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
     BIAS,
@@ -153,8 +156,9 @@ class SelfCalibrating(NamedTuple):
         """Attitude from acc and mag anew; what was learned of the sensors, the bias too, stays."""
         P = state.P
         unsure_attitude(self, P)
-        forget(P, TURN, 2, (4.0 * self.initial_tilt) ** 2)  # it may well be in motion
-        enter_block(P, NOTHING, True)
+        if state.begun:
+            forget(P, TURN, 2, (4.0 * self.initial_tilt) ** 2)  # it may well be in motion
+            enter_block(P, NOTHING, True)
         begin_block(P)
         put(P, SENSOR, 9, ZERO)
         attitude = attitude_of(sample.acc, sample.mag, 0.0)
@@ -200,7 +204,7 @@ class SelfCalibrating(NamedTuple):
                 off, to_iron, to_delay = off + left - known.field, to_iron + R, to_delay + late
             else:
                 seen: Vec3 = R @ m
-                off = off + seen
+                off, to_iron = off + seen, to_iron + R
         sums = Sums(
             s.time + T, s.samples + 1.0, s.rotation + T * R, force, force_late, force_time, s.gyr + sample.gyr,
             s.rate_square + dot(w, w), excess, mags, mag_time, off, to_iron, to_delay, clipped,
@@ -236,30 +240,21 @@ class SelfCalibrating(NamedTuple):
             flags |= (int(P[SENSOR, 22]) & 0xFFF) << 20
         return Output(sample.dt, q, state.rate, state.bias, sigma, bias_sigma, flags)
 
-    def learned(self, state: State) -> dict[str, dict[str, Any]]:
-        """What is known of the sensors by now: name → value, its sigma (of the same shape) and unit.
+    def learned(self, state: State) -> Learned:
+        """What is known of the sensors by now: see :func:`poise.estimators.self_calibrating.learned.learned`."""
+        return known_by_now(state.bias, state.P)
 
-        ``gyr_bias`` (3) and ``gyr_scale`` (3, 3) with ω = (I + A)(gyr − bias); ``field`` (2), north and up, ``hard_iron`` (3,
-        body frame) in the magnetometer's unit; ``mag_delay`` and ``acc_delay`` behind the gyroscope.
-        """
-        P, known = state.P, sensor_of(state.P)
-        sigma = np.sqrt(np.maximum(np.diag(P[:SIZE, :SIZE]), 0.0))
-        found = {
-            "gyr_bias": _learned(state.bias, sigma[BIAS : BIAS + 3], "rad/s"),
-            "gyr_scale": _learned(known.scale, sigma[SCALE : SCALE + 9].reshape(3, 3), "1"),
-            "acc_delay": _learned(known.acc_delay, sigma[ACC_DELAY], "s"),
-        }
-        if known.length > 0.0:
-            length = known.length
-            unit = "of the magnetometer"  # whatever that is: only directions counted
-            found["field"] = _learned(length * np.array(known.field[1:]), length * sigma[FIELD : FIELD + 2], unit)
-            found["hard_iron"] = _learned(length * np.array(known.iron), length * sigma[IRON : IRON + 3], unit)
-            found["mag_delay"] = _learned(known.mag_delay, sigma[MAG_DELAY], "s")
-        return found
+    def check_start(self, learned: Learned) -> None:
+        """Raises :class:`MethodError` where it cannot start from *learned*."""
+        check_start(learned)
 
+    def start_from(self, state: State, learned: Learned) -> None:
+        """Go on from *learned*, that of the same sensor, in a state that has begun with its bias."""
+        take_over(state.P, learned, self.initial_iron)
 
-def _learned(value: Any, sigma: Any, unit: str) -> dict[str, Any]:
-    return {"value": np.array(value, float).tolist(), "sigma": np.array(sigma, float).tolist(), "unit": unit}
+    def doubts(self, before: Learned, after: Learned) -> list[str]:
+        """What speaks against *before*, which it started from, being of the sensor of *after*: a sentence each."""
+        return doubts(before, after)
 
 
 @compiled
@@ -316,7 +311,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     )
     grow(P, s, noise)
     add_clipping(P, s.clipped, 0.4 * method.gyr_range)
-    if not state.begun:  # half a sampling interval: whether a sample is the mean before its stamp or around it
+    if not state.begun and known.acc_delay == 0.0:  # half an interval: whether a sample is the mean before its stamp
         P[ACC_DELAY, ACC_DELAY] += (0.5 * T / s.samples) ** 2
     q = state.attitude if state.begun else levelled(method, state.attitude, s)
     force = s.force if state.begun else rotate(q * conjugate(state.attitude), s.force)
@@ -343,10 +338,17 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         correct_one(P, VELOCITY + 2, -v.z, variance)
 
     # 7. Magnetometer
-    field, length, spread = known.field, known.length, known.spread
+    field, length, spread, iron = known.field, known.length, known.spread, known.iron
     if s.mags > 0.0:
-        e = (1.0 / s.mags) * s.off if state.begun else rotate(q * conjugate(state.attitude), (1.0 / s.mags) * s.off)
-        if length == 0.0:
+        e = (1.0 / s.mags) * s.off
+        if length < 0.0:  # a hard iron from before, in lengths of the field there
+            held = iron_from_before(known, norm(e))
+            there: Vec3 = (1.0 / s.mags) * s.to_iron @ held
+            e = e - there
+            iron = held / norm(e)
+        if not state.begun:
+            e = rotate(q * conjugate(state.attitude), e)
+        if length <= 0.0:
             length = norm(e)
             field = Vec3(0.0, sqrt(e.x * e.x + e.y * e.y) / length, e.z / length)
             q = exp(atan2(e.x, e.y) * UP) * q
@@ -363,7 +365,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         known.scale + three(P, X, SCALE),
         v + vector(P, X, VELOCITY),
         field + Vec3(0.0, float(P[X, FIELD]), float(P[X, FIELD + 1])),
-        known.iron + vector(P, X, IRON),
+        iron + vector(P, X, IRON),
         known.mag_delay + float(P[X, MAG_DELAY]),
         known.acc_delay + float(P[X, ACC_DELAY]),
         length,

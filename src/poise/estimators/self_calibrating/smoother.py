@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from poise.data.attitude import Attitude
+from poise.data.learned import Learned
 from poise.data.recording import Recording
 from poise.errors import MethodError, RecordingError
 from poise.estimators.engine import Stream, at_gravity, feed
@@ -36,12 +37,15 @@ def smooth(
     guard: bool = True,
     window: float = 600.0,
     overlap: float = 200.0,
+    start_from: Learned | Attitude | None = None,
+    learning: float | None = None,
     progress: Callable[[int], None] | None = None,
 ) -> Attitude:
     """The attitude of every row of *recording*, from all of it: before the row and after (``SelfCalibrating`` only).
 
     The way back starts *overlap* seconds behind each *window* of them; it needs about 80 kB of memory for a second of
-    recording, at the default length of a block. Other arguments as for :func:`estimate`.
+    recording, at the default length of a block. Other arguments as for :func:`estimate`; ``attitude.learning`` is that of
+    the way forward: of what walks the way back gives the bias, in every row, and what does not is that of the last row.
     Raises :class:`MethodError` for another method, and what :func:`estimate` raises.
     """
     if not isinstance(recording, Recording):
@@ -52,9 +56,11 @@ def smooth(
     if not (window > 0.0 and overlap >= 0.0):
         raise MethodError(f"window and overlap: expected seconds, found {window!r} and {overlap!r}")
     method = at_gravity(method, recording.gravity)._replace(log=0)
-    stream = Stream(method._replace(log=_PART + 2), start, bias=bias, guard=guard)
+    stream = Stream(method._replace(log=_PART + 2), start, bias=bias, guard=guard, start_from=start_from)
     log: list[Floats] = []
-    past = feed(stream, recording, _PART, after=lambda: log.append(_taken(stream)), progress=progress)
+    past = feed(
+        stream, recording, _PART, after=lambda: log.append(_taken(stream)), learning=learning, progress=progress
+    )
     entry = _unwrapped(past.flags >> _INDEX)
     past.flags[:] &= _KNOWN
     if len(past):

@@ -1,0 +1,179 @@
+"""What SelfCalibrating knows of its sensors, out of its memory and, for the next recording of the same sensor, into it."""
+
+from __future__ import annotations
+
+from math import radians
+from typing import Any
+
+import numpy as np
+
+from poise.data.learned import Learned, named
+from poise.errors import MethodError
+from poise.estimators.self_calibrating.model import (
+    ACC_DELAY,
+    BIAS,
+    IRON,
+    MAG_DELAY,
+    SCALE,
+    SIZE,
+    Floats,
+    Sensor,
+    forget,
+    put_sensor,
+    sensor_of,
+)
+from poise.math.compiled import compiled
+from poise.math.matrices import Mat3
+from poise.math.vectors import ZERO, Vec3
+
+METHOD = "SelfCalibrating"
+# What may change between two recordings of one sensor, as standard deviations added to each number's own.
+GROWTH = {
+    "gyr_bias": radians(
+        0.2
+    ),  # rad/s: 0.02 to 0.05 deg/s a kelvin, some kelvin, and what one turn-on differs from the next
+    "gyr_scale": 1.5e-3,  # 0.02 to 0.05 % a kelvin, and 0.1 % that a rate is off its straight line
+    "hard_iron": 0.01,  # lengths of the field: offset of the magnetometer, and what lies beside it
+    "mag_delay": 1e-3,  # s: two clocks that start anew; firmware and filters stay
+    "acc_delay": 3e-4,  # s
+}
+_DOUBTED = 3.0  # sigmas
+_UNIT = "of the magnetometer"  # whatever that is: only directions count
+_LIKE = 4.0  # the Earth's field is 22 to 67 µT, so no two places differ by more; another unit does
+_PLACES = {
+    "gyr_bias": range(BIAS, BIAS + 3),
+    "gyr_scale": range(SCALE, SCALE + 9),
+    "acc_delay": range(ACC_DELAY, ACC_DELAY + 1),
+    "hard_iron": range(IRON, IRON + 3),
+    "mag_delay": range(MAG_DELAY, MAG_DELAY + 1),
+}  # of what belongs to the sensor, not to the place
+_SHAPES: dict[str, tuple[int, ...]] = {
+    "gyr_bias": (3,), "gyr_scale": (3, 3), "acc_delay": (), "hard_iron": (3,), "mag_delay": (), "field": (2,),
+}  # fmt: skip
+_UNITS = {"gyr_bias": "rad/s", "gyr_scale": "1", "acc_delay": "s", "mag_delay": "s"}
+_LARGEST = {"gyr_bias": 10.0, "gyr_scale": 1.0, "acc_delay": 1.0, "mag_delay": 1.0}
+
+
+def learned(bias: Vec3, P: Floats) -> Learned:
+    """What is known by now; the covariance is that of all that belongs to the sensor.
+
+    ``gyr_bias`` (3) and ``gyr_scale`` (3, 3) with ω = (I + A)(gyr − bias); ``field`` (2), north and up, ``hard_iron`` (3,
+    body frame) in the magnetometer's unit; ``mag_delay`` and ``acc_delay`` behind the gyroscope. Without a magnetometer
+    nothing is said of one.
+    """
+    known, size = sensor_of(P), np.ones(SIZE)
+    values: dict[str, Any] = {"gyr_bias": bias, "gyr_scale": known.scale, "acc_delay": known.acc_delay}
+    if known.length > 0.0:
+        size[IRON - 2 : IRON + 3] = known.length  # the field's two stand before the hard iron's three
+        values["field"] = known.length * np.array(known.field[1:])
+        values["hard_iron"] = known.length * np.array(known.iron)
+        values["mag_delay"] = known.mag_delay
+    variance = P[:SIZE, :SIZE].diagonal()
+    sigma = size * np.sqrt(np.maximum(variance, 0.0))
+    quantities = {}
+    for name, value in values.items():
+        at = range(IRON - 2, IRON) if name == "field" else _PLACES[name]
+        own = sigma[at.start : at.stop].reshape(_SHAPES[name])
+        unit = _UNITS.get(name, _UNIT)
+        quantities[name] = {"value": np.array(value, float).tolist(), "sigma": own.tolist(), "unit": unit}
+    at_all = [i for name, places in _PLACES.items() if name in values for i in places]
+    covariance = P[np.ix_(at_all, at_all)] * np.outer(size[at_all], size[at_all])
+    states = tuple(n for name in _PLACES if name in values for n in named(name, quantities[name]["value"]))
+    return Learned(METHOD, quantities, states, 0.5 * (covariance + covariance.T))
+
+
+def check_start(learned: Learned) -> None:
+    """Raises :class:`MethodError` where *learned* is not what this method learns, or cannot be that of a sensor."""
+    if learned.method != METHOD:
+        raise MethodError(f"start_from: what {learned.method or 'no method'} learned, expected that of {METHOD}")
+    if "hard_iron" in learned and "field" not in learned:
+        raise MethodError("start_from: a hard iron without the field that it was learned in")
+    for name, shape in _SHAPES.items():
+        if name not in learned and name not in ("gyr_bias", "gyr_scale", "acc_delay"):
+            continue
+        if name not in learned or np.shape(learned[name]["value"]) != shape:
+            found = f"one of shape {np.shape(learned[name]['value'])}" if name in learned else "none"
+            raise MethodError(f"start_from: expected {name} of shape {shape}, found {found}")
+        unit, expected = learned[name]["unit"], _UNITS.get(name, _UNIT)
+        if unit != expected:
+            raise MethodError(f"start_from: {name} in {unit!r}, expected {expected!r}")
+        largest = _LARGEST.get(name, 10.0 * _length(learned))
+        if np.max(np.abs(learned[name]["value"])) > largest or np.max(learned[name]["sigma"]) > 10.0 * largest:
+            raise MethodError(f"start_from: {name} {learned[name]['value']} {unit} is that of no sensor")
+    if "field" in learned and not _length(learned) > 0.0:
+        raise MethodError("start_from: a field of no length")
+
+
+def take_over(P: Floats, learned: Learned, expected_iron: float) -> None:
+    """Begin with *learned*, each number as sure as it was, less what may have changed since; the bias is in the state.
+
+    Its correlations come along: several numbers may be known together, none of them alone. The field is of the place and
+    stays behind; the hard iron is kept in lengths of that field, told by a negative length, until there is one here. Its
+    sigma remains that share of a field.
+    """
+    kept, size = [name for name in _PLACES if name in learned], np.ones(SIZE)
+    known = sensor_of(P)
+    if "hard_iron" in learned:
+        length = _length(learned)
+        size[IRON : IRON + 3] = length
+        iron = Vec3(*(float(v) / length for v in learned["hard_iron"]["value"]))
+        known = known._replace(iron=iron, mag_delay=float(learned["mag_delay"]["value"]), length=-length)
+    scale = Mat3(*(Vec3(*map(float, row)) for row in learned["gyr_scale"]["value"]))
+    put_sensor(P, known._replace(scale=scale, acc_delay=float(learned["acc_delay"]["value"])))
+    for name in kept:
+        forget(P, _PLACES[name].start, len(_PLACES[name]), 0.0)
+    places = {n: i for name in kept for n, i in zip(named(name, learned[name]["value"]), _PLACES[name], strict=True)}
+    names, _, sigma = learned.numbers()
+    for name, deviation in zip(names, sigma, strict=True):
+        if name in places:
+            P[places[name], places[name]] = (deviation / size[places[name]]) ** 2
+    if learned.covariance is not None:
+        at = [places[name] for name in learned.states]
+        P[np.ix_(at, at)] = learned.covariance / np.outer(size[at], size[at])
+    for name in kept:
+        for i in _PLACES[name]:
+            P[i, i] += GROWTH[name] ** 2
+    if "hard_iron" in kept:
+        _weigh_iron(P, expected_iron)
+
+
+def _weigh_iron(P: Floats, expected: float) -> None:
+    """What was learned beside σ *expected* without it: a hard iron that walks is in part of the place where it was learned."""
+    known = sensor_of(P)
+    iron = list(known.iron)
+    for k in range(3):
+        variance = float(P[IRON + k, IRON + k])
+        weight = expected**2 / (expected**2 + variance) if variance > 0.0 else 1.0
+        iron[k] *= weight
+        forget(P, IRON + k, 1, weight * variance)
+    put_sensor(P, known._replace(iron=Vec3(*iron)))
+
+
+@compiled
+def iron_from_before(known: Sensor, seen: float) -> Vec3:
+    """The hard iron in the magnetometer's unit, where the field's length *seen* here is of that unit: else nothing."""
+    return -known.length * known.iron if 1.0 / _LIKE < seen / -known.length < _LIKE else ZERO
+
+
+def doubts(before: Learned, after: Learned) -> list[str]:
+    """What speaks against *before*, which a recording was started from, being of its sensor, now that *after* is known."""
+    names, values, sigma = before.numbers()
+    found = dict(zip(*after.numbers()[:2], strict=True))
+    told = []
+    for name, was, deviation in zip(names, values, sigma, strict=True):
+        quantity = next((key for key in (*_PLACES, "field") if name.startswith(key)), "")
+        if quantity in ("gyr_bias", "gyr_scale", "acc_delay", "mag_delay") and name in found:
+            expected = float(np.hypot(deviation, GROWTH[quantity]))
+            if abs(found[name] - was) > _DOUBTED * expected:
+                unit = before[quantity]["unit"]
+                told.append(f"{name} was {was:.3g} ± {expected:.2g} {unit}, found {found[name]:.3g}")
+    lengths = _length(before), _length(after)
+    if min(lengths) > 0.0 and not 1.0 / _LIKE < lengths[0] / lengths[1] < _LIKE:
+        told.append(
+            f"the field was {lengths[0]:.3g} long, here {lengths[1]:.3g}: another unit? The hard iron was left out"
+        )
+    return told
+
+
+def _length(learned: Learned) -> float:
+    return float(np.linalg.norm(learned["field"]["value"])) if "field" in learned else 0.0
