@@ -344,11 +344,11 @@ def feed(
     recording: Recording,
     block: int,
     *,
-    after: Callable[[], None] | None = None,
+    after: Callable[[slice, NDArray[np.uint32]], None] | None = None,
     learning: float | None = None,
     progress: Callable[[int], None] | None = None,
 ) -> Attitude:
-    """What a fresh *stream* says about *recording*, *block* rows at a time; *after* is called behind each block."""
+    """What a fresh *stream* says about *recording*, *block* rows at a time; *after* is told of each: rows, flags."""
     n = len(recording)
     cuts = frozenset() if learning is None else frozenset(every(learning, recording.time))
     times: list[float] = []
@@ -365,7 +365,7 @@ def feed(
         stream._see_mag(rows)
         stream._advance_into(rows, table[part], flags[part])
         if after is not None:
-            after()
+            after(part, flags[part])
         if last in cuts and (learned := stream.learned) is not None:
             times.append(float(recording.time[last - 1]))
             found.append(learned.numbers())

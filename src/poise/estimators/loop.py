@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from poise.data.flags import LOST
 from poise.data.packet import Sample
 from poise.estimators.protocol import output, resting_sample, start, step
-from poise.math.compiled import Memory, compiled, entry
+from poise.math.compiled import Memory, borrowed, compiled, entry, returned
 from poise.math.quaternions import Quat, inner
 from poise.math.vectors import Vec3
 
@@ -82,7 +82,8 @@ def state_of(memory: Any) -> Any:
 @entry
 def advance(memory: Any, rows: Floats, table: Floats, flags: NDArray[np.uint32]) -> None:
     """Step the method in *memory* over *rows* and write what it says into *table* and *flags*."""
-    method, state, aside = memory.method, memory.state, memory.aside
+    method, kept, aside = memory.method, memory.state, memory.aside
+    state = borrowed(kept)
     clock, first = float(aside[CLOCK]), aside[FIRST] != 0.0  # float(): plain Python must not meet numpy's scalars
     last, turn = _quaternion(aside, LAST), _quaternion(aside, TURN)
     for i in range(len(rows)):
@@ -107,6 +108,6 @@ def advance(memory: Any, rows: Floats, table: Floats, flags: NDArray[np.uint32])
         _write(table, i, 10, out.sigma)
         _write(table, i, 13, out.bias_sigma)
         flags[i] = out.flags if isfinite(q.w) else out.flags | LOST
-    memory.state = state
+    memory.state = returned(kept, state)
     aside[CLOCK], aside[FIRST] = clock, 0.0
     aside[LAST], aside[LAST + 1], aside[LAST + 2], aside[LAST + 3] = last.w, last.x, last.y, last.z

@@ -4,7 +4,7 @@ covariance P − P Λ P. Equation numbers are those of ``docs/methods/self-calib
 
 from __future__ import annotations
 
-from math import pi, sqrt
+from math import isfinite, pi, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +26,7 @@ from poise.estimators.self_calibrating.model import (
     vector,
 )
 from poise.math.compiled import compiled, entry
-from poise.math.quaternions import Quat, exp
+from poise.math.quaternions import Quat, exp, inner
 from poise.math.vectors import UP, Vec3
 
 
@@ -44,53 +44,56 @@ def back_through_correction(future: Floats, P: Floats, row: int) -> None:
             future[SIZE + 1, j] += weight * future[i, j]
     for j in range(SIZE):
         through += per_S * P[row + 1, j] * future[SIZE + 1, j]
-    pull = residual * per_S + ahead
-    for i in range(SIZE):
+    pull, own = residual * per_S + ahead, per_S + through
+    for i in range(SIZE):  # h has few numbers that are not 0
         h = float(P[row, i])
         if h != 0.0:
             future[SIZE, i] -= h * pull
-    for i in range(SIZE):
-        h, a = float(P[row, i]), float(future[SIZE + 1, i])
-        if h != 0.0:
-            weight = h * (per_S + through)
             for j in range(SIZE):
-                future[i, j] += weight * P[row, j] - h * future[SIZE + 1, j]
-        for j in range(SIZE):
-            future[i, j] -= a * P[row, j]
+                future[i, j] += h * (own * P[row, j] - future[SIZE + 1, j])
+            for j in range(SIZE):
+                future[j, i] -= h * future[SIZE + 1, j]
 
 
 @compiled
 def back_through_block(future: Floats, P: Floats, at: int) -> None:
     """λ ← Fᵀ λ, Λ ← Fᵀ Λ F (eq. 21), with F as in :func:`grow`."""
     S_R, S_f, S_l = three(P, at + ADDED, 9), vector(P, at + ADDED + 1, 9), vector(P, at + ADDED + 2, 9)
-    for i in range(SIZE + 1):  # every row of Λ, and λ: times F
-        e = vector(future, i, TURN)
-        v = vector(future, i, VELOCITY)
-        future[i, BIAS] -= S_R.x.x * e.x + S_R.y.x * e.y + S_R.z.x * e.z
-        future[i, BIAS + 1] -= S_R.x.y * e.x + S_R.y.y * e.y + S_R.z.y * e.z
-        future[i, BIAS + 2] -= S_R.x.z * e.x + S_R.y.z * e.y + S_R.z.z * e.z
-        for k in range(9):
-            future[i, SCALE + k] += P[at + ADDED, k] * e.x + P[at + ADDED + 1, k] * e.y + P[at + ADDED + 2, k] * e.z
-        future[i, TURN] += S_f.y * v.z - S_f.z * v.y
-        future[i, TURN + 1] += S_f.z * v.x - S_f.x * v.z
-        future[i, ACC_DELAY] += S_l.x * v.x + S_l.y * v.y + S_l.z * v.z
-    for j in range(SIZE):  # every column of Λ: Fᵀ times
+    for j in range(SIZE):  # Fᵀ times Λ
         ex, ey, ez = future[TURN, j], future[TURN + 1, j], future[TURN + 2, j]
         vx, vy, vz = future[VELOCITY, j], future[VELOCITY + 1, j], future[VELOCITY + 2, j]
         future[BIAS, j] -= S_R.x.x * ex + S_R.y.x * ey + S_R.z.x * ez
         future[BIAS + 1, j] -= S_R.x.y * ex + S_R.y.y * ey + S_R.z.y * ez
         future[BIAS + 2, j] -= S_R.x.z * ex + S_R.y.z * ey + S_R.z.z * ez
-        for k in range(9):
-            future[SCALE + k, j] += P[at + ADDED, k] * ex + P[at + ADDED + 1, k] * ey + P[at + ADDED + 2, k] * ez
         future[TURN, j] += S_f.y * vz - S_f.z * vy
         future[TURN + 1, j] += S_f.z * vx - S_f.x * vz
         future[ACC_DELAY, j] += S_l.x * vx + S_l.y * vy + S_l.z * vz
+        future[SIZE + 1, j], future[SIZE + 2, j], future[SIZE + 3, j] = ex, ey, ez
+    for k in range(9):
+        x, y, z = P[at + ADDED, k], P[at + ADDED + 1, k], P[at + ADDED + 2, k]
+        for j in range(SIZE):
+            future[SCALE + k, j] += x * future[SIZE + 1, j] + y * future[SIZE + 2, j] + z * future[SIZE + 3, j]
+    for i in range(SIZE + 1):  # then times F; in a row that F leaves as it is, symmetry has the result already
+        if VELOCITY <= i < ACC_DELAY:
+            for j in range(VELOCITY):
+                future[i, j] = future[j, i]
+            future[i, ACC_DELAY] = future[ACC_DELAY, i]
+        else:
+            e, v = vector(future, i, TURN), vector(future, i, VELOCITY)
+            future[i, BIAS] -= S_R.x.x * e.x + S_R.y.x * e.y + S_R.z.x * e.z
+            future[i, BIAS + 1] -= S_R.x.y * e.x + S_R.y.y * e.y + S_R.z.y * e.z
+            future[i, BIAS + 2] -= S_R.x.z * e.x + S_R.y.z * e.y + S_R.z.z * e.z
+            for k in range(9):
+                future[i, SCALE + k] += P[at + ADDED, k] * e.x + P[at + ADDED + 1, k] * e.y + P[at + ADDED + 2, k] * e.z
+            future[i, TURN] += S_f.y * v.z - S_f.z * v.y
+            future[i, TURN + 1] += S_f.z * v.x - S_f.x * v.z
+            future[i, ACC_DELAY] += S_l.x * v.x + S_l.y * v.y + S_l.z * v.z
 
 
 @entry
 def back(log: Floats, future: Floats, corrections: Floats) -> None:
     """From the last entry of *log* to the first: the corrections (n, 22) of ε and bias after each block, what was injected
-    there, their variances, whether the attitude was begun anew, ε's causal variances; *future* (27, 25) holds Λ, λ and room.
+    there, their variances, whether the attitude was begun anew, ε's causal variances; *future* (29, 25) holds Λ, λ and room.
     """
     for n in range(len(corrections) - 1, -1, -1):
         at = n * ENTRY
@@ -143,6 +146,7 @@ def apply(
     north = exp(-declination * UP)
     south = exp(declination * UP)
     n = len(corrections)
+    last = Quat(0.0, 0.0, 0.0, 0.0)
     for r in range(len(rows)):
         after = min(int(index[r]), n - 1)
         before = max(int(index[r]) - 1, 0)
@@ -155,6 +159,10 @@ def apply(
         x = mixed(corrections, before, after, share, TURN)
         turn = north * exp(x) * south if declination != 0.0 else exp(x)
         q = turn * Quat(float(table[r, 0]), float(table[r, 1]), float(table[r, 2]), float(table[r, 3]))
+        if inner(q, last) < 0.0:  # q and −q are one attitude: stay on the side we were
+            q = -q
+        if isfinite(q.w):
+            last = q
         table[r, 0], table[r, 1], table[r, 2], table[r, 3] = q.w, q.x, q.y, q.z
         bias = mixed(corrections, before, after, share, BIAS)
         for i in range(3):

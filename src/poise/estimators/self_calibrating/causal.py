@@ -89,7 +89,9 @@ class SelfCalibrating(NamedTuple):
     speed: Annotated[float, "m/s·√s", "how far the pseudo-velocity strays from 0, over one second", (1e-6, 1e6)] = 0.2
     speed_time: Annotated[float, "s", "how long a velocity lasts, that it has in motion", (0.0, 1e6)] = 0.4
     field_time: Annotated[float, "s", "how long an error of the field lasts", (1e-3, 1e6)] = 2.5
-    spread_time: Annotated[float, "s", "over which errors of the field, and velocities, are averaged", (1e-3, 1e6)] = 10.0
+    spread_time: Annotated[float, "s", "over which errors of the field, and velocities, are averaged", (1e-3, 1e6)] = (
+        10.0
+    )
     mag_rate_noise: Annotated[float, "s", "error of the field per rate of turn", (0.0, 10.0)] = 1e-3
     field_walk: Annotated[float, "1/√s", "random walk of the field's north and up, in lengths of it", (0.0, 10.0)] = (
         3e-5

@@ -18,12 +18,9 @@ from poise.estimators.self_calibrating.backward import apply, back
 from poise.estimators.self_calibrating.causal import SelfCalibrating
 from poise.estimators.self_calibrating.model import COLUMNS as WIDTH
 from poise.estimators.self_calibrating.model import ENTRIES, ENTRY, SENSOR, SIZE, Floats
-from poise.math import arrays
 from poise.math.vectors import Vec3
 
-Indices = NDArray[np.int64]
-
-_PART = 8192  # rows of a recording at a time
+_PART = 1024  # rows of a recording at a time: what they log stays near the processor
 _INDEX = np.uint32(20)  # from this bit of the flags on the log's entries are counted
 _KNOWN = np.uint32(0xFFFFF)  # the flags below it
 
@@ -43,9 +40,10 @@ def smooth(
 ) -> Attitude:
     """The attitude of every row of *recording*, from all of it: before the row and after (``SelfCalibrating`` only).
 
-    The way back starts *overlap* seconds behind each *window* of them; it needs about 80 kB of memory for a second of
-    recording, at the default length of a block. Other arguments as for :func:`estimate`; ``attitude.learning`` is that of
-    the way forward: of what walks the way back gives the bias, in every row, and what does not is that of the last row.
+    The way back starts *overlap* seconds behind each *window* of them, while the way forward goes on; both together take
+    about 80 kB of memory a second, at the default length of a block. Other arguments as for :func:`estimate`;
+    ``attitude.learning`` is that of the way forward: of what walks the way back gives the bias, in every row, and what does
+    not is that of the last row.
     Raises :class:`MethodError` for another method, and what :func:`estimate` raises.
     """
     if not isinstance(recording, Recording):
@@ -57,57 +55,94 @@ def smooth(
         raise MethodError(f"window and overlap: expected seconds, found {window!r} and {overlap!r}")
     method = at_gravity(method, recording.gravity)._replace(log=0)
     stream = Stream(method._replace(log=_PART + 2), start, bias=bias, guard=guard, start_from=start_from)
-    log: list[Floats] = []
+    way = _WayBack(recording.time, window, overlap, method.block)
     past = feed(
-        stream, recording, _PART, after=lambda: log.append(_taken(stream)), learning=learning, progress=progress
+        stream,
+        recording,
+        _PART,
+        after=lambda rows, flags: way.add(stream, rows, flags),
+        learning=learning,
+        progress=progress,
     )
-    entry = _unwrapped(past.flags >> _INDEX)
     past.flags[:] &= _KNOWN
-    if len(past):
-        _correct(past, entry, np.concatenate(log) if log else np.empty((0, WIDTH)), method, window, overlap)
+    way.finish()
+    if len(way.corrections):
+        tilt, heading = method.initial_tilt**2, min(method.initial_heading, pi) ** 2
+        if past.learned and "field" in past.learned:  # the first block's heading, too, is that of the local field now
+            heading -= method.local_field**2
+        begun = Vec3(tilt, tilt, heading)
+        apply(past.time, way.entry, past.table, way.time, way.corrections, begun, method.declination)
     return replace(past, provenance=replace(past.provenance, method="SelfCalibrating, smoothed"))
 
 
-def _taken(stream: Stream) -> Floats:
-    """The finished entries of the log so far, (k · ENTRY, WIDTH); the log is empty then."""
+class _WayBack:
+    """Goes back over the log a window at a time, as soon as a window and its overlap are there, and then forgets it."""
+
+    def __init__(self, rows: Floats, window: float, overlap: float, block: float) -> None:
+        self.entry = np.zeros(len(rows), np.int64)
+        """entries of the log finished up to each row"""
+        self.time = np.empty(0)
+        """s, of each entry's last row"""
+        self.corrections = np.empty((0, 22))
+        self._rows, self._window, self._overlap = rows, window, overlap
+        self._first, self._done, self._count = 0, 0, 0  # entry the log begins with; entries gone back over; entries
+        span = min(float(np.ptp(rows[np.isfinite(rows)])) if np.isfinite(rows).any() else 0.0, window + overlap)
+        likely = min(int(1.1 * span / block), len(rows)) + 1
+        self._log = np.empty((likely * ENTRY, WIDTH))  # memory is taken where it is written
+
+    def add(self, stream: Stream, rows: slice, flags: NDArray[np.uint32]) -> None:
+        """Take the entries that *stream* has finished in *rows*, whose *flags* count them modulo 4096; one a row at most."""
+        counted = (flags >> _INDEX).astype(np.int64)
+        finished = np.mod(np.diff(counted, prepend=self._count % 4096), 4096)
+        self.entry[rows] = self._count + np.cumsum(finished)
+        times = self._rows[rows][finished > 0]
+        end = (self._count - self._first) * ENTRY
+        self._make_room(end + len(times) * ENTRY, self._count + len(times))
+        _take(stream, self._log[end : end + len(times) * ENTRY])
+        self.time[self._count : self._count + len(times)] = times
+        self._count += len(times)
+        while self._count and self.time[self._count - 1] - self.time[self._done] > self._window + self._overlap:
+            time = self.time[: self._count]
+            last = max(int(np.searchsorted(time, time[self._done] + self._window)), self._done + 1)
+            ahead = max(int(np.searchsorted(time, time[last - 1] + self._overlap)), last)
+            self._go_back(last, min(ahead, self._count))
+
+    def finish(self) -> None:
+        """Go back over what is left."""
+        self.time, self.corrections = self.time[: self._count], self.corrections[: self._count]
+        if self._done < self._count:
+            self._go_back(self._count, self._count)
+
+    def _go_back(self, last: int, ahead: int) -> None:
+        """Corrections up to the entry *last*, from the log up to *ahead*; what is before *last* is forgotten."""
+        future, part = np.zeros((SIZE + 4, SIZE)), np.zeros((ahead - self._done, 22))
+        back(self._log[: (ahead - self._first) * ENTRY], future, part)
+        self.corrections[self._done : last] = part[: last - self._done]
+        left = self._log[(last - self._first) * ENTRY : (self._count - self._first) * ENTRY]
+        self._log[: len(left)] = left
+        self._first = self._done = last
+
+    def _make_room(self, log_rows: int, entries: int) -> None:
+        if log_rows > len(self._log):
+            self._log = _longer(self._log, log_rows)
+        if entries > len(self.time):
+            self.time, self.corrections = _longer(self.time, entries), _longer(self.corrections, entries)
+
+
+def _longer(array: Floats, least: int) -> Floats:
+    """*array* with room for *least* rows and as many again."""
+    longer = np.empty((2 * least, *array.shape[1:]))
+    longer[: len(array)] = array
+    return longer
+
+
+def _take(stream: Stream, into: Floats) -> None:
+    """Move the finished entries of the log out, (k · ENTRY, WIDTH)."""
     state = stream.running_state
     while hasattr(state, "inner"):
         state = state.inner
     P: Floats = state.P
     done = int(P[SENSOR, 22] - P[SENSOR, 23])
-    taken = P[ENTRIES : ENTRIES + done * ENTRY].copy()
+    into[:] = P[ENTRIES : ENTRIES + done * ENTRY]
     P[ENTRIES : ENTRIES + ENTRY] = P[ENTRIES + done * ENTRY : ENTRIES + (done + 1) * ENTRY]
     P[SENSOR, 23] = P[SENSOR, 22]
-    return taken
-
-
-def _unwrapped(count: NDArray[np.uint32]) -> Indices:
-    """Entries finished up to each row, from their number modulo 4096; a row ends one at most."""
-    steps: Indices = np.mod(np.diff(count.astype(np.int64), prepend=0), 4096)
-    return np.cumsum(steps)
-
-
-def _correct(
-    past: Attitude, entry: Indices, log: Floats, method: SelfCalibrating, window: float, overlap: float
-) -> None:
-    """Put into *past* what the future says of it."""
-    n = len(log) // ENTRY
-    ends = np.searchsorted(entry, np.arange(1, n + 1))  # the row at which each entry was finished
-    time = past.time[np.minimum(ends, len(entry) - 1)]
-    corrections = np.zeros((n, 22))
-    first = 0
-    while first < n:
-        last = int(np.searchsorted(time, time[first] + window)) if window < time[-1] - time[first] else n
-        last = max(last, first + 1)
-        ahead = max(int(np.searchsorted(time, time[last - 1] + overlap)), last) if last < n else n
-        future = np.zeros((SIZE + 2, SIZE))
-        part = np.zeros((ahead - first, 22))
-        back(log[first * ENTRY : ahead * ENTRY], future, part)
-        corrections[first:last] = part[: last - first]
-        first = last
-    if n:
-        tilt, heading = method.initial_tilt**2, min(method.initial_heading, pi) ** 2
-        if past.learned and "field" in past.learned:  # the first block's heading, too, is that of the local field now
-            heading -= method.local_field**2
-        apply(past.time, entry, past.table, time, corrections, Vec3(tilt, tilt, heading), method.declination)
-        past.quat[:] = arrays.continuous(past.quat)
