@@ -43,6 +43,9 @@ class Feed(NamedTuple):
         return signs + 0.02 * (self.gyr != "rad/s") + 0.01 * (self.acc != "m/s²")
 
 
+FOLLOWS = 3.0  # degrees RMS from the truth, up to which an estimator is said to follow it
+UPRIGHT = 3.0  # degrees from the Earth frame's axis to the true vertical
+
 FEEDS = [Feed(g, a, 1, s, m) for g, a, s, m in product(("rad/s", "deg/s"), ("m/s²", "g"), (1, -1), (1, -1))]
 
 
@@ -81,19 +84,20 @@ class Choice(NamedTuple):
     fit: Fit
 
 
-def chosen(trials: list[Trial], heading: bool) -> tuple[Choice, list[Choice]] | None:
-    """The plainest hypothesis among those that fit as well as the best, and the others that say the same otherwise."""
-    best = min((trial.residual for trial in trials), default=np.inf)
-    if not np.isfinite(best):
+def chosen(trials: list[Trial], heading: bool, vertical: bool = True) -> tuple[Choice, list[Choice]] | None:
+    """The plainest hypothesis among those that fit as well as the best, and the others that say the same otherwise.
+
+    *heading* and *vertical* say whether the Earth frame has them: what has none points anywhere.
+    """
+    every = [Choice(t, fit) for t in trials for fit in t.fits if heading or t.feed.mag_sign > 0]
+    upright = [c for c in every if c.fit.tilted < UPRIGHT] if vertical else []
+    known = upright if upright and min(c.fit.residual for c in upright) < FOLLOWS else every
+    if not known:
         return None
-    alike = [
-        Choice(trial, fit)
-        for trial in trials
-        for fit in trial.fits
-        if fit.residual <= 1.25 * best + 0.15 and (heading or trial.feed.mag_sign > 0)
-    ]
+    best = min(c.fit.residual for c in known)
+    alike = [c for c in known if c.fit.residual <= 1.25 * best + 0.15]
     alike.sort(key=lambda c: (round(c.fit.complexity(heading) + c.trial.feed.complexity, 6), c.fit.residual))
-    return (alike[0], alike[1:]) if alike else None
+    return alike[0], alike[1:]
 
 
 def differs(run: Run, feed: Feed, given: Answer, other: Recording) -> float:

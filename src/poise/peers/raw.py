@@ -78,11 +78,20 @@ def ahrs_mahony(time: Floats, gyr: Floats, acc: Floats, mag: Floats) -> Any:
     return Mahony(gyr=gyr, acc=acc, mag=mag, Dt=_period(time)).Q
 
 
-def ahrs_ekf(time: Floats, gyr: Floats, acc: Floats, mag: Floats) -> Any:
-    """In its frame "ENU", with the field of Munich that it assumes."""
+def ahrs_ekf(time: Floats, gyr: Floats, acc: Floats, mag: Floats) -> Floats:
+    """In its frame "ENU", with the field of Munich that it assumes, sample by sample from the identity.
+
+    Its constructor, given all samples, starts in a wrong attitude in this frame, and does not get out of it within a minute.
+    """
     from ahrs.filters import EKF
 
-    return EKF(gyr=gyr, acc=acc, mag=mag, Dt=_period(time), frame="ENU").Q
+    ekf = EKF(Dt=_period(time), frame="ENU")
+    quat = np.empty((len(gyr), 4))
+    latest = np.array([1.0, 0.0, 0.0, 0.0])
+    for i in range(len(gyr)):
+        ekf.mag = mag[i]  # it expects a field, or none, by this, whatever update() is given
+        quat[i] = latest = ekf.update(latest, gyr[i], acc[i], mag[i])
+    return quat
 
 
 def ahrs_ekf_ned(time: Floats, gyr: Floats, acc: Floats, mag: Floats) -> Any:
