@@ -1,9 +1,9 @@
 """Which frame, direction, order and units an estimator really has, found out by feeding it made truth.
 
-    found = poise.conform(my_filter)        # a function of all samples, a class, a step, a method
-    print(found)                            # every answer with the figures that decide it
-    found["Earth frame"].answer             # "NED"
-    print(found.adapter)                    # Python that makes its output an attitude of poise
+found = poise.conform(my_filter)        # a function of all samples, a class, a step, a method
+print(found)                            # every answer with the figures that decide it
+found["Earth frame"].answer             # "NED"
+print(found.adapter)                    # Python that makes its output an attitude of poise
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ _RATES = (10.0, 2000.0)
 def conform(estimator: Any, *, name: str = "", rate: float = 100.0, imported: str = "") -> Conformance:
     """What *estimator* really takes and gives: its order, direction, frames, units and signs, each with figures.
 
-    *estimator* is ``f(time, gyr, acc, mag) -> (n, 4)`` with (n,) s and (n, 3) samples: mag may be left out, dt or rate may
-    stand for time, parameters in any order if their names tell what they are; the answer may be (n, 3, 3) matrices or (n, 3) Euler
+    *estimator* is ``f(time, gyr, acc, mag) -> (n, 4)`` with (n,) s and (n, 3) samples. mag may be left out, dt or rate may
+    stand for time, in any order if names tell what parameters are; the answer may be (n, 3, 3) matrices or (n, 3) Euler
     angles too. A class, or a function without arguments, that makes an object with ``update(gyr, acc, mag)``, which
     returns the attitude or holds it as ``quat``; such an object; a step ``f(q, gyr, acc, mag, dt) -> q``; a method of poise.
     *rate* is the samples per second of what it is fed, for an estimator that is made for one. *imported* is the line
@@ -47,10 +47,12 @@ def conform(estimator: Any, *, name: str = "", rate: float = 100.0, imported: st
     run = runner(estimator, name, turntable(float(rate), REST).recording)
     found = examined(run, float(rate))
     imported = imported or f"estimator = {name}  # your own"
-    return _told(found, name, imported) if found.follows and found.upright else failed(found, name, imported)
+    return _told(found, name, imported) if found.follows and found.upright else failed(found, name)
 
 
-def outputs(estimator: Any, time: ArrayLike, gyr: ArrayLike, acc: ArrayLike, mag: ArrayLike | None = None) -> NDArray[np.float64]:
+def outputs(
+    estimator: Any, time: ArrayLike, gyr: ArrayLike, acc: ArrayLike, mag: ArrayLike | None = None
+) -> NDArray[np.float64]:
     """What *estimator*, of any shape that :func:`conform` takes, gives for samples as they are: nothing is converted."""
     fed = Recording(time=time, gyr=gyr, acc=acc, mag=mag)  # type: ignore[arg-type]
     return runner(estimator, getattr(estimator, "__name__", type(estimator).__name__), fed)(fed).values

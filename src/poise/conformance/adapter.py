@@ -37,9 +37,13 @@ def adapter(found: Examined, name: str, imported: str, heading: bool) -> str:
         lines.append(f"    turn = Rotation.from_matrix({_matrix(fit.nearest)}).inv() * turn  # {what}")
     if heading and abs(fit.turn_about_up) >= 1.0:
         degrees = -fit.turn_about_up
-        lines.append(f'    turn = Rotation.from_euler("z", {-degrees:.2f}, degrees=True) * turn  # its north is not magnetic north')
+        lines.append(
+            f'    turn = Rotation.from_euler("z", {-degrees:.2f}, degrees=True) * turn  # its north is not magnetic north'
+        )
     if fit.body != 0:
-        lines.append(f"    turn = turn * Rotation.from_matrix({_matrix(fit.body)}).inv()  # its body axes → the sensor's")
+        lines.append(
+            f"    turn = turn * Rotation.from_matrix({_matrix(fit.body)}).inv()  # its body axes → the sensor's"
+        )
     reference = "magnetic" if heading else "arbitrary"
     lines.append(
         f'    return poise.Attitude.of(recording.time, turn.as_quat()[:, [3, 0, 1, 2]], heading_reference="{reference}")'
@@ -55,7 +59,9 @@ def _gyr(feed: Feed) -> str:
 def _acc(feed: Feed) -> str:
     sign = "-" * (feed.acc_sign < 0)
     words = "specific force" if feed.acc_sign > 0 else "gravity"
-    return f"{sign}recording.acc / 9.80665  # {words}, g" if feed.acc == "g" else f"{sign}recording.acc  # {words}, m/s²"
+    return (
+        f"{sign}recording.acc / 9.80665  # {words}, g" if feed.acc == "g" else f"{sign}recording.acc  # {words}, m/s²"
+    )
 
 
 def _read(fit: Fit) -> str:
@@ -66,7 +72,9 @@ def _read(fit: Fit) -> str:
         return f'Rotation.from_euler("{reading.order}", out[:, {list(reading.columns)}]{signed}{degrees})'
     if reading.form == "rotation matrix":
         return "Rotation.from_matrix(out)"
-    return "Rotation.from_quat(out)" if reading.order == "xyzw" else "Rotation.from_quat(out[:, [1, 2, 3, 0]])  # w x y z"
+    return (
+        "Rotation.from_quat(out)" if reading.order == "xyzw" else "Rotation.from_quat(out[:, [1, 2, 3, 0]])  # w x y z"
+    )
 
 
 def _matrix(index: int) -> str:

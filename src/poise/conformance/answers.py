@@ -80,7 +80,9 @@ def _checked(name: str, form: Form, values: Floats, n: int) -> Answer:
 
 
 def _expected(n: int) -> str:
-    return f"expected ({n}, 4) quaternions, ({n}, 3, 3) rotation matrices or ({n}, 3) Euler angles, a row for every sample"
+    return (
+        f"expected ({n}, 4) quaternions, ({n}, 3, 3) rotation matrices or ({n}, 3) Euler angles, a row for every sample"
+    )
 
 
 def _described(value: Any) -> str:

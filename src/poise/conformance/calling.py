@@ -32,7 +32,7 @@ class Run(NamedTuple):
     call: Callable[[Recording], Any]
 
     def __call__(self, fed: Recording) -> Answer:
-        """Its answer to the samples as they are in *fed*. Raises :class:`MethodError` with the type and line of its own error."""
+        """Its answer to the samples as they are in *fed*. Its own error is a :class:`MethodError` with its type and line."""
         return answer(self.name, guarded(self.name, lambda: self.call(fed)), len(fed))
 
 
@@ -69,7 +69,9 @@ def _where(problem: BaseException) -> str:
     frames = traceback.extract_tb(problem.__traceback__)
     here = str(Path(__file__).parents[1])
     foreign = [frame for frame in frames if not frame.filename.startswith(here)]
-    own = [f for f in foreign if "site-packages" not in f.filename and not f.filename.startswith(("<", sys.base_prefix))]
+    own = [
+        f for f in foreign if "site-packages" not in f.filename and not f.filename.startswith(("<", sys.base_prefix))
+    ]
     if not foreign:
         return ""
     frame = (own or foreign)[-1]

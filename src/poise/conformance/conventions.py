@@ -91,7 +91,9 @@ class Fit:
     @cached_property
     def off_axis(self) -> float:
         """Degrees from A to the named frame that is nearest."""
-        return float(np.degrees(arrays.angle(arrays.multiply(self.earth, arrays.conjugate(frames.QUATS[self.nearest])))))
+        return float(
+            np.degrees(arrays.angle(arrays.multiply(self.earth, arrays.conjugate(frames.QUATS[self.nearest]))))
+        )
 
     @cached_property
     def up(self) -> Floats:
@@ -132,7 +134,9 @@ def fits(given: Answer, quat: Floats, rows: NDArray[np.intp]) -> list[Fit]:
         read = reading.quat(values)
         if not np.isfinite(read).all():
             continue
-        for i, (earth, residual) in enumerate(zip(*_best(arrays.multiply(read[None], arrays.conjugate(turned))), strict=True)):
+        for i, (earth, residual) in enumerate(
+            zip(*_best(arrays.multiply(read[None], arrays.conjugate(turned))), strict=True)
+        ):
             found.append(Fit(reading, earth, i, float(residual)))
     return sorted(found, key=lambda fit: fit.residual)
 

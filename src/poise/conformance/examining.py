@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,7 @@ from poise.conformance.answers import Answer
 from poise.conformance.calling import Run
 from poise.conformance.conventions import Level, levelled
 from poise.conformance.feeding import FEEDS, FOLLOWS, Choice, Feed, Trial, apart, chosen, differs, tried
-from poise.conformance.scene import Scene, pulses, turntable
+from poise.conformance.scene import Scene, arm, pulses, turntable
 from poise.data.recording import Recording
 from poise.errors import MethodError
 from poise.math import arrays
@@ -20,6 +21,17 @@ Floats = NDArray[np.float64]
 
 REST, LONG_REST = 10.0, 120.0  # s to settle in; the second for what starts from identity with a low gain
 _DEAF = 1e-6  # degrees: an output that moves by less does not listen
+
+
+class Arm(NamedTuple):
+    """What becomes of the output if acc comes in the other unit, on an arm that accelerates."""
+
+    other: str
+    apart: float
+    """degrees between the two outputs, where they differ most"""
+    residual: float
+    """degrees RMS in the unit that was chosen"""
+    other_residual: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,6 +46,8 @@ class Examined:
     alike: list[Choice]
     hears: dict[str, bool]
     """whether the output changes with gyr, acc, mag, time"""
+    arm: Arm | None = None
+    """what the unit of the accelerometer was decided by"""
     own_rate: float | None = None
     """samples per second of a step that is fixed in the estimator, where another rate than that asked for had to be taken"""
 
@@ -48,6 +62,31 @@ class Examined:
 
 
 def examined(run: Run, rate: float) -> Examined:
+    """:func:`followed`, and the unit of the accelerometer, which shows only where something accelerates."""
+    found = followed(run, rate)
+    return _with_acc_unit(found) if found.follows and found.hears["acc"] else found
+
+
+def _with_acc_unit(found: Examined) -> Examined:
+    assert found.choice
+    trial, fit = found.choice
+    feeds = [trial.feed._replace(acc=unit) for unit in ("m/s²", "g")]
+    scene = arm(found.rate)
+    trials = [tried(found.run, scene, feed) for feed in feeds]
+    kept = [each.like(fit) for each in trials]
+    errors = [each.residual if each else float("inf") for each in kept]
+    one, two = (each.answer for each in trials)
+    moved = apart(one, two) if one and two else float("inf")
+    this = int(errors[1] < 0.98 * errors[0] - 0.02) if moved >= 0.01 else int(trial.feed.acc == "g")
+    known = Arm(feeds[1 - this].acc, moved, errors[this], errors[1 - this])
+    again = next((t for t in found.trials if t.feed == feeds[this]), trial)
+    same = again.like(fit)
+    if same is None or same.residual > FOLLOWS:
+        return replace(found, arm=Arm(feeds[this].acc, moved, errors[1 - this], errors[this]))
+    return replace(found, arm=known, choice=Choice(again, same))
+
+
+def followed(run: Run, rate: float) -> Examined:
     """Trials until the estimator follows: the plain ones, another rate, more time to settle, a gyroscope of the other sign.
 
     Raises :class:`MethodError` with its own error where it fails at whatever it is fed.
@@ -82,7 +121,8 @@ def _examined(run: Run, rate: float, rest: float, feeds: list[Feed]) -> Examined
 def _listens(run: Run, scene: Scene, feed: Feed, given: Answer) -> dict[str, bool]:
     """Whether the output changes when a sensor is held at its first sample, or the stamps lie twice as far apart."""
     fed = scene.recording
-    others = {s: replace(fed, **{s: np.tile(getattr(fed, s)[:1], (len(fed), 1))}) for s in ("gyr", "acc", "mag")}
+    held = {s: np.tile(getattr(fed, s)[:1], (len(fed), 1)) for s in ("gyr", "acc", "mag")}
+    others = {s: replace(fed, truth=None, **{s: rows}) for s, rows in held.items()}
     others["time"] = replace(fed, time=2.0 * fed.time, truth=None)
     return {name: differs(run, feed, given, other) > _DEAF for name, other in others.items()}
 
@@ -115,6 +155,20 @@ def rescaled(found: Examined, sensor: str, factor: float) -> tuple[float, float]
     if trial.answer is None or fit is None:
         return float("inf"), float("inf")
     return apart(found.choice.trial.answer, trial.answer), fit.residual
+
+
+def uneven_steps(found: Examined) -> tuple[float, float]:
+    """Degrees RMS with uneven stamps, and degrees by which the output moves if the same steps come in another order."""
+    assert found.choice
+    scene, feed = turntable(found.rate, found.scene.rest / found.rate, uneven=True), found.choice.trial.feed
+    trial = tried(found.run, scene, feed)
+    fit = trial.like(found.choice.fit)
+    if trial.answer is None or fit is None:
+        return float("inf"), float("inf")
+    time = scene.recording.time
+    steps = np.random.default_rng(1).permutation(np.diff(time))
+    shuffled = replace(scene.recording, time=np.concatenate([time[:1], time[0] + np.cumsum(steps)]), truth=None)
+    return fit.residual, differs(found.run, feed, trial.answer, shuffled)
 
 
 def vertical_only(found: Examined) -> tuple[Trial, Level] | None:
@@ -167,7 +221,7 @@ def fixed_rate(run: Run, rate: float) -> float | None:
     usual = [20, 25, 30, 40, 50, 60, 75, 100, 104, 119, 120, 125, 128, 150, 200, 208, 225, 238, 250, 256, 286, 300, 400, 416,
              500, 512, 800, 833, 1000, 1600, 2000]  # fmt: skip
     near = [(abs(np.log(r / u)), float(u)) for r in rates for u in usual]
-    off, own = min(near)
+    off, own = min(near, default=(np.inf, rate))
     if off < 0.03:
         return own
     return next((r for r in rates if 10.0 <= r <= 2000.0), None)

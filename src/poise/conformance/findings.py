@@ -6,8 +6,8 @@ import numpy as np
 
 from poise.conformance import frames
 from poise.conformance.conventions import WELL_KNOWN, Fit, distance
-from poise.conformance.examining import Examined, repeats, rescaled, residual_on
-from poise.conformance.feeding import FOLLOWS, Choice, Feed, Trial
+from poise.conformance.examining import Examined, repeats, rescaled, residual_on, uneven_steps
+from poise.conformance.feeding import FOLLOWS, Feed, Trial
 from poise.conformance.result import CANNOT_TELL, Finding
 from poise.conformance.scene import turntable
 from poise.math import arrays
@@ -53,7 +53,7 @@ def _output(found: Examined) -> Finding:
 
 
 def euler_words(fit: Fit) -> str:
-    """"ZYX from columns 3, 2, −1, degrees"."""
+    """ "ZYX from columns 3, 2, −1, degrees"."""
     reading = fit.reading
     columns = ", ".join(f"{'−' if s < 0 else ''}{c + 1}" for c, s in zip(reading.columns, reading.signs, strict=True))
     return f"turns about {' then '.join(reading.order.lower())} (body-fixed) from columns {columns}, " + (
@@ -65,7 +65,11 @@ def _direction(found: Examined) -> Finding:
     fit = _fit(found)
     if fit.reading.form == "Euler angles":
         return Finding("direction", "body to Earth", "by the order and signs of its angles", fit.residual)
-    others = [f for f in _fits(found) if f.body == fit.body and f.reading == fit.reading._replace(inverse=not fit.reading.inverse)]
+    others = [
+        f
+        for f in _fits(found)
+        if f.body == fit.body and f.reading == fit.reading._replace(inverse=not fit.reading.inverse)
+    ]
     names = ("body to Earth", "Earth to body")
     this, other = names[fit.reading.inverse], names[not fit.reading.inverse]
     return _against(this, "direction", fit.residual, others, other)
@@ -74,7 +78,9 @@ def _direction(found: Examined) -> Finding:
 def _earth(found: Examined) -> Finding:
     fit, question = _fit(found), "Earth frame"
     if not found.hears["acc"] and not found.hears["mag"]:
-        return Finding(question, "that of the start", "the gyroscope alone: nothing else moves the output", fit.residual)
+        return Finding(
+            question, "that of the start", "the gyroscope alone: nothing else moves the output", fit.residual
+        )
     if not heading_known(found):
         return Finding(question, f"{vertical_words(fit)}, heading arbitrary", _heading_evidence(found), fit.residual)
     snapped = [(_snapped(found, q), frames.earth_name(m)) for q, m in zip(frames.QUATS, frames.MATRICES, strict=True)]
@@ -107,7 +113,11 @@ def _body(found: Examined) -> Finding:
     others = [f for f in _fits(found) if f.body != fit.body and f.reading == fit.reading]
     if fit.reading.form == "Euler angles":
         return Finding(question, "as fed", "angles fit the axes as they are", fit.residual)
-    answer = "as fed" if fit.body == 0 else f'turned: its x, y, z are "{frames.body_words(frames.MATRICES[fit.body].T)}" of yours'
+    answer = (
+        "as fed"
+        if fit.body == 0
+        else f'turned: its x, y, z are "{frames.body_words(frames.MATRICES[fit.body].T)}" of yours'
+    )
     return _against(answer, question, fit.residual, others, "the next of 24")
 
 
@@ -145,15 +155,15 @@ def _accelerometer(found: Examined) -> Finding:
 
 def _acc_unit(found: Examined) -> tuple[str, str, float]:
     """Words, evidence, and the residual with the other unit where it is worse."""
-    assert found.choice
-    feed, fit = found.choice.trial.feed, found.choice.fit
-    other = "g" if feed.acc == "m/s²" else "m/s²"
-    moved, residual = rescaled(found, "acc", 1.0 / 9.80665 if other == "g" else 9.80665)
-    if moved < 0.01:
-        return "m/s² or g", f"in {other} the output moves by less than 0.01°", float("nan")
-    if residual > 2.0 * fit.residual + _SAME:
-        return feed.acc, f"in {other} {_degrees(residual)}", residual
-    return f"{CANNOT_TELL} m/s² from g", f"in {other} the output moves by up to {_degrees(moved)}, {residual:.2f}°", float("nan")
+    assert found.choice and found.arm
+    other, apart, here, there = found.arm
+    unit = found.choice.trial.feed.acc
+    if apart < 0.01:
+        return "m/s² or g", f"in {other} the output moves by less than 0.01°, on an arm too", float("nan")
+    evidence = f"on an arm {_degrees(here)}, in {other} {_degrees(there)}, up to {_degrees(apart)} apart"
+    if there > 1.25 * here + _SAME:
+        return unit, evidence, there
+    return f"{unit} rather than {other}" if there > 1.02 * here + 0.02 else "m/s² or g, nearly", evidence, float("nan")
 
 
 def _magnetometer(found: Examined) -> Finding:
@@ -162,7 +172,9 @@ def _magnetometer(found: Examined) -> Finding:
     feed, fit = choice.trial.feed, choice.fit
     if not found.hears["mag"]:
         return Finding(question, "not used", "held at its first sample, it changes nothing", fit.residual)
-    words = ["as measured (points north and, in the north, down)" if feed.mag_sign > 0 else "negated (points south and up)"]
+    words = [
+        "as measured (points north and, in the north, down)" if feed.mag_sign > 0 else "negated (points south and up)"
+    ]
     turned = feed._replace(mag_sign=-feed.mag_sign)
     same = _same_otherwise(found, turned)
     other = float("nan") if same else _as(found, turned)
@@ -191,12 +203,17 @@ def _time(found: Examined) -> Finding:
         made_for = f"made for {found.rate:g} samples a second"
         return Finding(question, f"stamps ignored, {made_for}", "the output is the same with stamps twice as far apart")
     slower = residual_on(found, found.scene, spaced=2.0)
-    uneven = residual_on(found, turntable(found.rate, found.scene.rest / found.rate, uneven=True))
-    evidence = f"at half the rate {slower:.2f}°, with uneven steps {_degrees(uneven)}"
+    uneven, shuffled = uneven_steps(found)
+    evidence = f"at half the rate {_degrees(slower)}, with uneven steps {_degrees(uneven)}"
     if slower > FOLLOWS:
         return Finding(question, CANNOT_TELL, f"stamps matter, but {evidence}", fit.residual, slower)
-    each = "every step counts" if uneven < 2.0 * fit.residual + 0.5 else "one rate for all samples"
-    return Finding(question, each, evidence, fit.residual, uneven)
+    if shuffled < 0.01:
+        return Finding(
+            question, "one rate for all samples", f"{evidence}, the same if these are shuffled", fit.residual, uneven
+        )
+    return Finding(
+        question, "every step counts", f"{evidence}, {_degrees(shuffled)} apart if these are shuffled", fit.residual
+    )
 
 
 def _scalar(found: Examined) -> Finding:
@@ -204,7 +221,7 @@ def _scalar(found: Examined) -> Finding:
     assert found.choice and found.choice.trial.answer
     given = found.choice.trial.answer
     if given.form != "quaternion":
-        return Finding(question, "-", f"a {given.form} has none")
+        return Finding(question, "-", "only a quaternion has them")
     values = given.values[np.isfinite(given.values).all(axis=1)]
     lengths = np.linalg.norm(values, axis=1)
     scalar = values[:, 3 if fit.reading.order == "xyzw" else 0]
@@ -232,7 +249,9 @@ def _settling(found: Examined) -> Finding:
     rest = found.scene.rest / found.rate
     if seconds >= rest:
         return Finding(question, CANNOT_TELL, f"{first}, and it is not within {FOLLOWS:g}° after {rest:g} s at rest")
-    return Finding(question, f"{seconds:.1f} s at rest" if seconds else "at once", f"{first}; until within {FOLLOWS:g}°")
+    return Finding(
+        question, f"{seconds:.1f} s at rest" if seconds else "at once", f"{first}; until within {FOLLOWS:g}°"
+    )
 
 
 def _repeatable(found: Examined) -> Finding:
@@ -262,10 +281,12 @@ def _fits(found: Examined) -> tuple[Fit, ...]:
 
 
 def _as(found: Examined, feed: Feed) -> float:
-    """Degrees RMS with another feed, read the same way."""
+    """Degrees RMS with another feed, read the same way; how far its frame leans, where that is more."""
     trial = _trial(found, feed)
     fit = trial.like(_fit(found)) if trial else None
-    return fit.residual if fit else _INF
+    if fit is None:
+        return _INF
+    return max(fit.residual, fit.tilted) if found.hears["acc"] else fit.residual
 
 
 def _trial(found: Examined, feed: Feed) -> Trial | None:
@@ -336,5 +357,3 @@ def runner_up(found: Examined, all_findings: list[Finding]) -> tuple[str, float]
 
 
 _DECIDING = ("output", "direction", "Earth frame", "body axes", "gyroscope", "accelerometer", "magnetometer")
-
-__all__ = ["Choice", "equivalents", "euler_words", "findings", "heading_known", "runner_up", "vertical_words"]

@@ -30,7 +30,7 @@ IDENTITY = QUATS[0]
 
 
 def earth_name(matrix: Floats) -> str:
-    """"NED" for the matrix (3, 3) from ENU to north-east-down: where each of the frame's axes points."""
+    """ "NED" for the matrix (3, 3) from ENU to north-east-down: where each of the frame's axes points."""
     return "".join(_letter(row, ("EW", "NS", "UD")) for row in matrix)
 
 
@@ -43,7 +43,7 @@ def body_words(matrix: Floats) -> str:
 
 def named_frame(name: str) -> Floats:
     """The quaternion from ENU to the frame that three letters name."""
-    return QUATS[[earth_name(matrix) for matrix in MATRICES].index(name)]
+    return np.asarray(QUATS[[earth_name(matrix) for matrix in MATRICES].index(name)])
 
 
 def _letter(row: Floats, names: tuple[str, str, str]) -> str:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from poise.data.recording import Recording
 from poise.math import arrays
-from poise.simulation import Motion, Sensor, Triad, measure
+from poise.simulation import Motion, Sensor, Triad, forearm, measure
 
 Floats = NDArray[np.float64]
 
@@ -65,6 +65,13 @@ def turntable(rate: float, rest: float = 10.0, *, uneven: bool = False, southern
     for axis, reach, hertz in (("x", 2.6, 0.19), ("y", 2.1, 0.27), ("z", 2.9, 0.23), ("x", 1.2, 0.61)):
         quat = arrays.multiply(quat, about(axis, wave * reach * np.sin(2 * np.pi * hertz * since)))
     return _measured(time, quat, round(rest * rate), southern)
+
+
+def arm(rate: float) -> Scene:
+    """A forearm with an inexpensive sensor: accelerations, rests and a bias, for what listens to the size of acc."""
+    motion = forearm(40.0, rate, seed=3)
+    recording = replace(measure(motion, Sensor(mag_delay=0.0, jitter=0.0), seed=3), moving=None)
+    return Scene(recording, motion.quat, round(10.0 * rate))
 
 
 @dataclass(frozen=True, eq=False)
