@@ -7,6 +7,7 @@ import importlib.util
 import sys
 from collections.abc import Sequence
 from contextlib import redirect_stdout
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
@@ -102,7 +103,7 @@ def _told(target: Target, rate: float) -> Conformance:
 
 
 def _kind(word: str) -> str:
-    """ "method", "peer", "file" or "module". Raises :class:`UsageError` for what is none of them."""
+    """One of method, peer, file and module. Raises :class:`UsageError` for what is none of them."""
     from poise.estimators import METHODS
     from poise.peers.raw import RAW
 
@@ -113,11 +114,12 @@ def _kind(word: str) -> str:
     place, colon, name = word.rpartition(":")
     if word.endswith(".py") or place.endswith(".py"):
         return "file"
-    if colon and place and name:
-        return "module"
-    usage(
-        f"ESTIMATOR {word!r}: expected FILE.py:NAME or MODULE:NAME, a method ({', '.join(METHODS)}) or one of {', '.join(RAW)}"
-    )
+    if not (colon and place and name):
+        usage(
+            f"ESTIMATOR {word!r}: expected FILE.py:NAME or MODULE:NAME, a method ({', '.join(METHODS)}) or one of "
+            f"{', '.join(RAW)}"
+        )
+    return "module"
 
 
 def _targets(word: str, kind: str) -> list[Target]:
@@ -154,7 +156,7 @@ def _module_in(path: Path) -> Any:
     sys.path.insert(0, str(path.resolve().parent))  # it may import its neighbours, also when it is called
     sys.modules[path.stem] = module
     try:
-        guarded(str(path), lambda: spec.loader and spec.loader.exec_module(module))
+        guarded(str(path), partial(spec.loader.exec_module, module))
     except PoiseError:
         sys.path[:] = before
         if known is None:

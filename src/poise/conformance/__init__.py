@@ -58,6 +58,10 @@ def outputs(
     return runner(estimator, getattr(estimator, "__name__", type(estimator).__name__), fed)(fed).values
 
 
+def _short(answer: str) -> str:
+    return answer.replace(" (+g up at rest)", "").replace(" (+g down at rest)", "").partition(" (")[0]
+
+
 def _told(found: Examined, name: str, imported: str) -> Conformance:
     assert found.choice
     answers = findings(found)
@@ -70,8 +74,8 @@ def _told(found: Examined, name: str, imported: str) -> Conformance:
     by = {f.question: f.answer for f in answers}
     arrow = f"{frame} to body" if fit.reading.inverse else f"body to {frame}"
     summary = (
-        f"conforms: {by['output']}, {arrow}; gyroscope {by['gyroscope']}; accelerometer {by['accelerometer']}; "
-        f"magnetometer {by['magnetometer']}. {fit.residual:.2f}° from the truth"
+        f"conforms: {by['output']}, {arrow}; gyr {by['gyroscope']}, acc {_short(by['accelerometer'])}, "
+        f"mag {_short(by['magnetometer'])}: {fit.residual:.2f}° from the truth"
         + (f", the next best ({question}) {second:.0f}°" if question else "")
     )
     hints = [f"the same, said otherwise: {words}" for words in equivalents(found)]

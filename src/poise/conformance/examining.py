@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from poise.conformance.answers import Answer
 from poise.conformance.calling import Run
 from poise.conformance.conventions import Level, levelled
 from poise.conformance.feeding import FEEDS, FOLLOWS, Choice, Feed, Trial, apart, chosen, differs, tried
-from poise.conformance.scene import Scene, arm, pulses, turntable
+from poise.conformance.scene import Pulses, Scene, arm, pulses, turntable
 from poise.data.recording import Recording
 from poise.errors import MethodError
 from poise.math import arrays
@@ -20,6 +20,7 @@ from poise.math import arrays
 Floats = NDArray[np.float64]
 
 REST, LONG_REST = 10.0, 120.0  # s to settle in; the second for what starts from identity with a low gain
+_ASIDE = arrays.matrix(np.array([np.cos(0.35), 0.6 * np.sin(0.35), 0.8 * np.sin(0.35), 0.0]))
 _DEAF = 1e-6  # degrees: an output that moves by less does not listen
 
 
@@ -87,29 +88,47 @@ def _with_acc_unit(found: Examined) -> Examined:
 
 
 def followed(run: Run, rate: float) -> Examined:
-    """Trials until the estimator follows: the plain ones, another rate, more time to settle, a gyroscope of the other sign.
+    """Trials until the estimator follows: the plain ones, another rate, a gyroscope of the other sign, more time to settle.
 
     Raises :class:`MethodError` with its own error where it fails at whatever it is fed.
     """
     first = _examined(run, rate, REST, FEEDS)
     if all(trial.error for trial in first.trials):
         raise first.trials[0].error or MethodError(run.name)
-    if first.follows and first.upright:
+    dead = all(
+        t.answer is None or np.ptp(t.answer.values[first.scene.rest :], axis=0).max() < 1e-9 for t in first.trials
+    )
+    if dead or (first.follows and first.upright):
         return first
     if not first.hears["time"] and (own := fixed_rate(run, rate)) and abs(own / rate - 1.0) > 0.02:
         other = _examined(run, own, REST, FEEDS)
         if other.follows:
             return replace(other, own_rate=own)
-    mirrored = _examined(run, rate, REST, [feed._replace(gyr_sign=-1) for feed in FEEDS])
-    if mirrored.follows and mirrored.upright:
-        return mirrored
-    patient = _examined(run, rate, LONG_REST, FEEDS)
-    return patient if patient.follows else first
+    # −mag is left out: what is not decided by it differs from these by half a turn of the frame only.
+    fewer = [feed for feed in FEEDS if feed.mag_sign > 0]
+    for rest, sign in ((REST, -1), (LONG_REST, 1)):
+        again = _examined(run, rate, rest, [feed._replace(gyr_sign=sign) for feed in fewer])
+        if again.follows and (again.upright or not first.follows):
+            return again
+    return first
 
 
 def _examined(run: Run, rate: float, rest: float, feeds: list[Feed]) -> Examined:
     scene = turntable(rate, rest)
-    trials = [tried(run, scene, feed) for feed in feeds]
+    trials: list[Trial] = []
+    plain: dict[Feed, Trial] = {}
+    deaf_to_size = False
+    for feed in feeds:
+        in_si = plain.get(feed._replace(acc="m/s²"))
+        if feed.acc == "g" and in_si is not None and deaf_to_size:
+            trials.append(replace(in_si, feed=feed))
+            continue
+        trial = tried(run, scene, feed)
+        trials.append(trial)
+        if feed.acc == "m/s²":
+            plain[feed] = trial
+        elif in_si is not None and in_si.answer and trial.answer:
+            deaf_to_size = apart(in_si.answer, trial.answer) < _DEAF
     best = chosen(trials, heading=True)
     feed = best[0].trial.feed if best else feeds[0]
     given = best[0].trial.answer if best else next((t.answer for t in trials if t.answer), None)
@@ -119,12 +138,18 @@ def _examined(run: Run, rate: float, rest: float, feeds: list[Feed]) -> Examined
 
 
 def _listens(run: Run, scene: Scene, feed: Feed, given: Answer) -> dict[str, bool]:
-    """Whether the output changes when a sensor is held at its first sample, or the stamps lie twice as far apart."""
+    """Whether the output changes when a sensor says the same all the time, or the stamps lie twice as far apart."""
     fed = scene.recording
-    held = {s: np.tile(getattr(fed, s)[:1], (len(fed), 1)) for s in ("gyr", "acc", "mag")}
-    others = {s: replace(fed, truth=None, **{s: rows}) for s, rows in held.items()}
+    # acc and mag point 40° away, so that one who listens at the start only is heard too.
+    aside = {"gyr": np.eye(3), "acc": _ASIDE, "mag": _ASIDE}
+    held = {s: np.tile(getattr(fed, s)[:1] @ turn, (len(fed), 1)) for s, turn in aside.items()}
+    others = {s: replace(fed, truth=None, **_only(s, rows)) for s, rows in held.items()}
     others["time"] = replace(fed, time=2.0 * fed.time, truth=None)
     return {name: differs(run, feed, given, other) > _DEAF for name, other in others.items()}
+
+
+def _only(sensor: str, rows: Floats) -> dict[str, Any]:
+    return {sensor: rows}
 
 
 def repeats(found: Examined) -> float:
@@ -175,35 +200,73 @@ def vertical_only(found: Examined) -> tuple[Trial, Level] | None:
     """The trial in which up comes out best, whatever the heading does."""
     best: tuple[Trial, Level] | None = None
     for trial in found.trials:
-        if trial.answer is None:
-            continue
-        level = levelled(trial.answer, found.scene.quat, found.scene.judged)
+        level = levelled(trial.answer, found.scene.quat, found.scene.judged) if trial.answer else None
         if level and (best is None or level.residual < best[1].residual - 0.2):
             best = trial, level
     return best
 
 
-def response(found: Examined, trial: Trial) -> Floats | None:
-    """(3, 3) by how much of a turn that only the gyroscope tells of the output turns: row i for a turn about body axis i.
+def vertical_in_slow_motion(found: Examined, feed: Feed) -> float:
+    """Degrees RMS of up, with the whole motion eight times slower."""
+    scene = turntable(found.rate, found.scene.rest / found.rate, slower=8.0)
+    try:
+        given = found.run(feed.of(scene.recording))
+    except MethodError:
+        return float("inf")
+    level = levelled(given, scene.quat, scene.judged)
+    return level.residual if level else float("inf")
 
-    The identity for a filter whose gyroscope is right; in the body axes and the reading that fit best.
-    """
-    if not trial.fits or trial.answer is None:
-        return None
-    fit = trial.fits[0]
-    plain = min((f for f in trial.fits if f.body == 0), key=lambda f: (f.residual, f.reading.inverse), default=fit)
+
+class Response(NamedTuple):
+    """By how much of a turn that only the gyroscope tells of the output turns: row i for a turn about body axis i."""
+
+    trial: Trial
+    """in the unit of the gyroscope that is heard better"""
+    body: Floats
+    """(3, 3) about the body's axes: the identity for a filter whose gyroscope is right"""
+    earth: Floats
+    """(3, 3) about the axes of its Earth frame: the identity for a product the wrong way round"""
+
+
+def response(found: Examined, trial: Trial) -> Response | None:
+    """What the output does for the gyroscope alone, in the plainest reading that makes most sense of it."""
+    feeds = [trial.feed, trial.feed._replace(gyr="rad/s" if trial.feed.gyr == "deg/s" else "deg/s")]
+    known = [t for feed in feeds for t in found.trials if t.feed == feed and t.fits]
     made = pulses(found.rate, REST)
-    again = tried(found.run, made.scene, trial.feed)
-    if again.answer is None:
-        return None
-    quat = plain.reading.quat(again.answer.values)
-    turns = arrays.multiply(arrays.conjugate(quat[:-1]), quat[1:])
-    turns *= np.where(turns[:, :1] < 0, -1.0, 1.0)
-    vectors = 2.0 * turns[:, 1:]
-    vectors *= (np.arctan2(np.linalg.norm(turns[:, 1:], axis=1), turns[:, 0])
-                / np.maximum(np.linalg.norm(turns[:, 1:], axis=1), 1e-12))[:, None]  # fmt: skip
-    found_turns = np.array([vectors[first:last].sum(axis=0) for first, last in made.rows])
-    return found_turns / made.angle if np.isfinite(found_turns).all() else None
+    best: tuple[float, Response] | None = None
+    for each in known:
+        again = tried(found.run, made.scene, each.feed)
+        for fit in (f for f in each.fits if again.answer and f.body == 0 and f.reading.form != "Euler angles"):
+            assert again.answer
+            quat = fit.reading.quat(again.answer.values)
+            if not np.isfinite(quat[made.scene.rest :]).all():
+                continue
+            back = arrays.conjugate(quat[:-1])
+            turns = (arrays.multiply(back, quat[1:]), arrays.multiply(quat[1:], back))
+            body, earth = (_summed(turn, made) for turn in turns)
+            clear = (
+                min(_unlike_axes(body), _unlike_axes(earth) + 0.1) + 0.02 * fit.reading.inverse + 0.001 * fit.residual
+            )
+            if best is None or clear < best[0]:
+                best = clear, Response(each, body, earth)
+    return best[1] if best else None
+
+
+def _summed(turns: Floats, made: Pulses) -> Floats:
+    turns = turns * np.where(turns[:, :1] < 0, -1.0, 1.0)
+    sine = np.linalg.norm(turns[:, 1:], axis=1)
+    vectors = 2.0 * (np.arctan2(sine, turns[:, 0]) / np.maximum(sine, 1e-12))[:, None] * turns[:, 1:]
+    return np.array([vectors[first:last].sum(axis=0) for first, last in made.rows]) / made.angle
+
+
+def _unlike_axes(matrix: Floats) -> float:
+    """How far a response is from turns of the right size about three axes, each about its own."""
+    lengths = np.linalg.norm(matrix, axis=1)
+    largest = np.abs(matrix).max(axis=1)
+    spread = np.linalg.norm(np.sqrt(np.maximum(lengths**2 - largest**2, 0.0)) / np.maximum(lengths, 1e-9))
+    size = float(np.mean(np.abs(np.log(np.clip(lengths, 1e-4, 1e4)))))
+    exchanged = 0.3 * bool((np.argmax(np.abs(matrix), axis=1) != np.arange(3)).any())
+    return float(spread) + size + exchanged + 0.02 * int(np.sum(np.diag(matrix) < 0))
 
 
 def fixed_rate(run: Run, rate: float) -> float | None:
@@ -216,7 +279,7 @@ def fixed_rate(run: Run, rate: float) -> float | None:
     matrix = response(found, trial)
     if matrix is None:
         return None
-    gain = float(np.cbrt(abs(np.linalg.det(matrix))))
+    gain = float(np.cbrt(abs(np.linalg.det(matrix.body))))
     rates = [rate / g for g in (gain, gain * 180.0 / np.pi) if g > 0]  # its unit is not known yet
     usual = [20, 25, 30, 40, 50, 60, 75, 100, 104, 119, 120, 125, 128, 150, 200, 208, 225, 238, 250, 256, 286, 300, 400, 416,
              500, 512, 800, 833, 1000, 1600, 2000]  # fmt: skip

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from poise.conformance.conventions import Level
-from poise.conformance.examining import Examined, response, vertical_only
+from poise.conformance.examining import Examined, response, vertical_in_slow_motion, vertical_only
 from poise.conformance.feeding import FOLLOWS, UPRIGHT, Trial, apart
 from poise.conformance.mending import mended_axes, mended_gyroscope
 from poise.conformance.result import CANNOT_TELL, Conformance, Finding
@@ -24,7 +24,10 @@ def failed(found: Examined, name: str) -> Conformance:
     answers, hints = [_whole(found)], []
     level = vertical_only(found)
     known = level is not None and level[1].residual <= FOLLOWS
-    answers += [*_vertical(level), *_lean(found)]
+    slow = float("inf")
+    if level and not known and level[1].residual < _NOTHING and not found.hears["mag"]:
+        slow = vertical_in_slow_motion(found, level[0].feed)
+    answers += [*_vertical(level, slow), *_lean(found)]
     moved = apart(found.choice.trial.answer, found.run(trial.feed.of(found.scene.recording)))
     dead = _dead(trial)
     if dead:
@@ -39,11 +42,19 @@ def failed(found: Examined, name: str) -> Conformance:
         answers += _gyroscope(found, trial, known, hints)
     answers.append(_listens(found))
     residual = found.choice.fit.residual
-    if known and level is not None and not found.follows:
-        summary = (
-            f"inclination only: up within {level[1].residual:.2f}°; with the heading {residual:.0f}° from the truth"
-        )
+    if slow <= FOLLOWS and level is not None:
+        summary = f"inclination only, in slow motion: up within {slow:.2f}°, in fast motion {level[1].residual:.1f}°"
         return Conformance(name, "inclination only", summary, residual, float("nan"), tuple(answers), tuple(hints))
+    if known and level is not None and not found.follows:
+        if not found.hears["mag"]:
+            summary = (
+                f"inclination only: up within {level[1].residual:.2f}°; the heading, without magnetometer, does not"
+            )
+            return Conformance(name, "inclination only", summary, residual, float("nan"), tuple(answers), tuple(hints))
+        summary = (
+            f"does not conform: inclination follows ({level[1].residual:.2f}°), its heading does not ({residual:.0f}°)"
+        )
+        return Conformance(name, "does not conform", summary, residual, float("nan"), tuple(answers), tuple(hints))
     summary = f"does not conform: {residual:.1f}° from the truth at best, expected at most {FOLLOWS:g}°"
     if found.follows:
         summary = f"does not conform: its vertical is {found.choice.fit.tilted:.1f}° from any axis of its Earth frame"
@@ -71,11 +82,13 @@ def _whole(found: Examined) -> Finding:
     return Finding("attitude", answer, f"{at_best}, as {fit.reading.form}{order}, {way}, fed {fed}", fit.residual)
 
 
-def _vertical(level: tuple[Trial, Level] | None) -> list[Finding]:
+def _vertical(level: tuple[Trial, Level] | None, slow: float) -> list[Finding]:
     if level is None:
         return []
     residual = level[1].residual
     words = "follows" if residual <= FOLLOWS else "does not follow"
+    if slow <= FOLLOWS:
+        words = f"follows slow motion: {slow:.2f}° with all turns eight times slower"
     axis = int(np.argmax(np.abs(level[1].up)))
     toward = f"{'xyz'[axis]} {'up' if level[1].up[axis] > 0 else 'down'}"
     return [Finding("inclination", words, f"up within {residual:.1f}° RMS, the heading set aside ({toward})", residual)]
@@ -106,9 +119,10 @@ def _dead(trial: Trial) -> Finding | None:
 
 def _gyroscope(found: Examined, trial: Trial, level: bool, hints: list[str]) -> list[Finding]:
     """What the output does for the gyroscope alone; the mistake, if mending it makes the estimator follow, goes to *hints*."""
-    matrix = response(found, trial)
-    if matrix is None:
+    heard = response(found, trial)
+    if heard is None:
         return []
+    trial, matrix = heard.trial, heard.body
     answers = []
     for i, axis in enumerate("xyz"):
         turned = ", ".join(f"{20 * v:.1f}" for v in matrix[i])
@@ -117,6 +131,8 @@ def _gyroscope(found: Examined, trial: Trial, level: bool, hints: list[str]) -> 
     right = all(finding.answer == "right" for finding in answers)
     if not right and (hint := mended_gyroscope(found, trial, matrix)):
         hints.append(hint)
+    elif not right and np.abs(np.abs(heard.earth) - np.eye(3)).max() < 0.3:
+        hints.append("gyr turns it about the axes of the Earth instead of the body's: the product is q ⊗ ω, not ω ⊗ q")
     for sensor in ("mag",) if level else ("acc", "mag"):
         if right and found.hears[sensor] and (hint := mended_axes(found, trial, sensor)):
             hints.append(hint)

@@ -7,7 +7,7 @@ import numpy as np
 from poise.conformance import frames
 from poise.conformance.conventions import WELL_KNOWN, Fit, distance
 from poise.conformance.examining import Examined, repeats, rescaled, residual_on, uneven_steps
-from poise.conformance.feeding import FOLLOWS, Feed, Trial
+from poise.conformance.feeding import FOLLOWS, Feed, Trial, tried
 from poise.conformance.result import CANNOT_TELL, Finding
 from poise.conformance.scene import turntable
 from poise.math import arrays
@@ -53,7 +53,7 @@ def _output(found: Examined) -> Finding:
 
 
 def euler_words(fit: Fit) -> str:
-    """ "ZYX from columns 3, 2, −1, degrees"."""
+    """The order of the turns, their columns with signs, and the unit."""
     reading = fit.reading
     columns = ", ".join(f"{'−' if s < 0 else ''}{c + 1}" for c, s in zip(reading.columns, reading.signs, strict=True))
     return f"turns about {' then '.join(reading.order.lower())} (body-fixed) from columns {columns}, " + (
@@ -126,7 +126,7 @@ def _gyroscope(found: Examined) -> Finding:
     assert choice
     feed, fit = choice.trial.feed, choice.fit
     if not found.hears["gyr"]:
-        return Finding(question, "not used", "held at its first sample, it changes nothing", fit.residual)
+        return Finding(question, "not used", "if it says the same all the time, nothing changes", fit.residual)
     unit = feed.gyr if feed.gyr_sign > 0 else f"{feed.gyr}, of the other sign (it turns against the right-hand rule)"
     other = "deg/s" if feed.gyr == "rad/s" else "rad/s"
     residual = _as(found, feed._replace(gyr=other))
@@ -138,7 +138,7 @@ def _accelerometer(found: Examined) -> Finding:
     assert choice
     feed, fit = choice.trial.feed, choice.fit
     if not found.hears["acc"]:
-        return Finding(question, "not used", "held at its first sample, it changes nothing", fit.residual)
+        return Finding(question, "not used", "if it says the same all the time, nothing changes", fit.residual)
     sign = "specific force (+g up at rest)" if feed.acc_sign > 0 else "gravity (+g down at rest)"
     unit, unit_evidence, unit_other = _acc_unit(found)
     turned = feed._replace(acc_sign=-feed.acc_sign)
@@ -171,7 +171,7 @@ def _magnetometer(found: Examined) -> Finding:
     assert choice
     feed, fit = choice.trial.feed, choice.fit
     if not found.hears["mag"]:
-        return Finding(question, "not used", "held at its first sample, it changes nothing", fit.residual)
+        return Finding(question, "not used", "if it says the same all the time, nothing changes", fit.residual)
     words = [
         "as measured (points north and, in the north, down)" if feed.mag_sign > 0 else "negated (points south and up)"
     ]
@@ -283,20 +283,21 @@ def _fits(found: Examined) -> tuple[Fit, ...]:
 def _as(found: Examined, feed: Feed) -> float:
     """Degrees RMS with another feed, read the same way; how far its frame leans, where that is more."""
     trial = _trial(found, feed)
-    fit = trial.like(_fit(found)) if trial else None
+    fit = trial.like(_fit(found))
     if fit is None:
         return _INF
     return max(fit.residual, fit.tilted) if found.hears["acc"] else fit.residual
 
 
-def _trial(found: Examined, feed: Feed) -> Trial | None:
-    return next((trial for trial in found.trials if trial.feed == feed), None)
+def _trial(found: Examined, feed: Feed) -> Trial:
+    known = next((trial for trial in found.trials if trial.feed == feed), None)
+    return known or tried(found.run, found.scene, feed)
 
 
 def _same_otherwise(found: Examined, feed: Feed) -> Fit | None:
     """The fit by which another sign is the same estimator, said otherwise: as good, in another frame."""
     trial, fit = _trial(found, feed), _fit(found)
-    other = trial.like(fit) if trial else None
+    other = trial.like(fit)
     good = other is not None and other.residual <= 1.25 * fit.residual + 0.15
     return other if good and other is not None and (other.tilted < FOLLOWS or fit.tilted >= FOLLOWS) else None
 

@@ -30,7 +30,7 @@ IDENTITY = QUATS[0]
 
 
 def earth_name(matrix: Floats) -> str:
-    """ "NED" for the matrix (3, 3) from ENU to north-east-down: where each of the frame's axes points."""
+    """The letters NED for the matrix (3, 3) from ENU to north-east-down: where each of the frame's axes points."""
     return "".join(_letter(row, ("EW", "NS", "UD")) for row in matrix)
 
 

@@ -14,7 +14,7 @@ class Finding(NamedTuple):
 
     question: str
     answer: str
-    """ "cannot tell", where nothing decides"""
+    """or "cannot tell", where nothing decides"""
     evidence: str
     residual_deg: float = float("nan")
     """RMS, read as the answer says"""

@@ -47,15 +47,19 @@ class Scene:
         return np.unique(np.linspace(self.rest, len(self.quat) - 1, 400).astype(int))
 
 
-def turntable(rate: float, rest: float = 10.0, *, uneven: bool = False, southern: bool = False) -> Scene:
+def turntable(
+    rate: float, rest: float = 10.0, *, uneven: bool = False, southern: bool = False, slower: float = 1.0
+) -> Scene:
     """*rest* s still in a tilted pose, quarter turns about each body axis to and fro, then tumbling through all attitudes.
 
-    *uneven* draws steps between 0.4 and 1.6 periods; *southern* lets the field point up, as on the southern half of the Earth.
+    *uneven* draws steps between 0.4 and 1.6 periods; *southern* lets the field point up, as on the southern half of the
+    Earth; *slower* makes the motion after the rest take so many times longer.
     """
     last = rest + len(_QUARTERS) * (_TURN + _HOLD) + _TUMBLE
-    time = np.arange(round(last * rate)) / rate
+    stamps = np.arange(round((rest + slower * (last - rest)) * rate)) / rate
     if uneven:
-        time = time + np.random.default_rng(4).uniform(-0.3, 0.3, len(time)) / rate
+        stamps = stamps + np.random.default_rng(4).uniform(-0.3, 0.3, len(stamps)) / rate
+    time = np.minimum(stamps, rest) + np.maximum(stamps - rest, 0.0) / slower
     quat = np.tile(_START, (len(time), 1))
     for i, (axis, sign) in enumerate(_QUARTERS):
         share = np.clip((time - rest - i * (_TURN + _HOLD)) / _TURN, 0.0, 1.0)
@@ -64,7 +68,7 @@ def turntable(rate: float, rest: float = 10.0, *, uneven: bool = False, southern
     wave = _smooth(np.minimum(since / 1.5, 1.0))
     for axis, reach, hertz in (("x", 2.6, 0.19), ("y", 2.1, 0.27), ("z", 2.9, 0.23), ("x", 1.2, 0.61)):
         quat = arrays.multiply(quat, about(axis, wave * reach * np.sin(2 * np.pi * hertz * since)))
-    return _measured(time, quat, round(rest * rate), southern)
+    return _measured(stamps, quat, round(rest * rate), southern)
 
 
 def arm(rate: float) -> Scene:
