@@ -35,6 +35,8 @@ def answer(name: str, given: Any, n: int) -> Answer:
     if hasattr(given, "table") and hasattr(given, "quat"):  # an Attitude
         given = given.quat
     given = _first(given, n)
+    if given is None:
+        raise MethodError(f"{name} returned nothing; {_expected(n)}")
     try:
         values = np.array(given, dtype=float)
     except (TypeError, ValueError):
@@ -86,7 +88,5 @@ def _expected(n: int) -> str:
 
 
 def _described(value: Any) -> str:
-    if value is None:
-        return "nothing"
     shape = getattr(value, "shape", None)
     return f"an array of shape {shape}" if shape is not None else f"a {type(value).__name__}"

@@ -24,6 +24,9 @@ _ASIDE = arrays.matrix(np.array([np.cos(0.35), 0.6 * np.sin(0.35), 0.8 * np.sin(
 _DEAF = 1e-6  # degrees: an output that moves by less does not listen
 
 
+CLEARLY = 3.0  # by so many times a unit has to be worse to be the wrong one: either may suit a filter's gates by chance
+
+
 class Arm(NamedTuple):
     """What becomes of the output if acc comes in the other unit, on an arm that accelerates."""
 
@@ -78,13 +81,12 @@ def _with_acc_unit(found: Examined) -> Examined:
     errors = [each.residual if each else float("inf") for each in kept]
     one, two = (each.answer for each in trials)
     moved = apart(one, two) if one and two else float("inf")
-    this = int(errors[1] < 0.98 * errors[0] - 0.02) if moved >= 0.01 else int(trial.feed.acc == "g")
+    this = int(trial.feed.acc == "g")
+    if errors[this] > CLEARLY * errors[1 - this] + 0.5:
+        this = 1 - this
     known = Arm(feeds[1 - this].acc, moved, errors[this], errors[1 - this])
     again = next((t for t in found.trials if t.feed == feeds[this]), trial)
-    same = again.like(fit)
-    if same is None or same.residual > FOLLOWS:
-        return replace(found, arm=Arm(feeds[this].acc, moved, errors[1 - this], errors[this]))
-    return replace(found, arm=known, choice=Choice(again, same))
+    return replace(found, arm=known, choice=Choice(again, again.like(fit) or fit))
 
 
 def followed(run: Run, rate: float) -> Examined:

@@ -39,7 +39,8 @@ class Feed(NamedTuple):
     @property
     def complexity(self) -> float:
         """What is plain is preferred among what fits alike."""
-        signs = 0.3 * (self.acc_sign < 0) + 0.3 * (self.mag_sign < 0) + 5.0 * (self.gyr_sign < 0)
+        # Many take gravity for acc; hardly any takes the field the wrong way round: an odd frame is likelier.
+        signs = 0.3 * (self.acc_sign < 0) + 1.2 * (self.mag_sign < 0) + 5.0 * (self.gyr_sign < 0)
         return signs + 0.02 * (self.gyr != "rad/s") + 0.01 * (self.acc != "m/s²")
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from poise.conformance import frames
 from poise.conformance.conventions import WELL_KNOWN, Fit, distance
-from poise.conformance.examining import Examined, repeats, rescaled, residual_on, uneven_steps
+from poise.conformance.examining import CLEARLY, Examined, repeats, rescaled, residual_on, uneven_steps
 from poise.conformance.feeding import FOLLOWS, Feed, Trial, tried
 from poise.conformance.result import CANNOT_TELL, Finding
 from poise.conformance.scene import turntable
@@ -161,9 +161,9 @@ def _acc_unit(found: Examined) -> tuple[str, str, float]:
     if apart < 0.01:
         return "m/s² or g", f"in {other} the output moves by less than 0.01°, on an arm too", float("nan")
     evidence = f"on an arm {_degrees(here)}, in {other} {_degrees(there)}, up to {_degrees(apart)} apart"
-    if there > 1.25 * here + _SAME:
+    if there > CLEARLY * here + 0.5:
         return unit, evidence, there
-    return f"{unit} rather than {other}" if there > 1.02 * here + 0.02 else "m/s² or g, nearly", evidence, float("nan")
+    return f"{CANNOT_TELL} m/s² from g", evidence, float("nan")
 
 
 def _magnetometer(found: Examined) -> Finding:
