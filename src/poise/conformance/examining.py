@@ -81,7 +81,8 @@ def _with_acc_unit(found: Examined) -> Examined:
     errors = [each.residual if each else float("inf") for each in kept]
     one, two = (each.answer for each in trials)
     moved = apart(one, two) if one and two else float("inf")
-    this = int(trial.feed.acc == "g")
+    plain = next((t.like(fit) for t in found.trials if t.feed == feeds[0]), None)
+    this = int(trial.feed.acc == "g" and (plain is None or plain.residual > FOLLOWS))
     if errors[this] > CLEARLY * errors[1 - this] + 0.5:
         this = 1 - this
     known = Arm(feeds[1 - this].acc, moved, errors[this], errors[1 - this])
