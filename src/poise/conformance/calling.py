@@ -96,13 +96,22 @@ def _estimated(method: Any, fed: Recording) -> Any:
 
 def _of_maker(make: Any, name: str, what: str) -> Run:
     asked = wanted(name, make, ())
-    sensors = {m for m in (asked.values() if isinstance(asked, dict) else asked) if m in ("gyr", "acc", "mag")}
-    if {"gyr", "acc"} <= sensors:  # the constructor computes: ahrs
+    meanings = set(asked.values() if isinstance(asked, dict) else asked)
+    if "acc" in meanings and meanings & {"gyr", "mag"}:  # the constructor computes: ahrs
         return Run(name, f"{what} whose constructor takes all samples", lambda fed: held(_call(make, asked, fed, None)))
 
     def call(fed: Recording) -> Any:
-        made = _call(make, asked, fed, None)
-        return _stepped(made, name, fed) if _step_of(made) else _all_or_steps(made, name, fed)
+        try:
+            made = _call(make, asked, fed, None)
+        except TypeError:
+            if parameters(make) is not None:
+                raise
+            made = make(1.0 / fed.rate_hz)  # a class of a C extension does not tell that it needs one
+        if _step_of(made) is None:
+            raise MethodError(
+                f"{name} makes a {type(made).__name__}, which cannot be called and has no update(); {SHAPES}"
+            )
+        return _all_or_steps(made, name, fed) if _step_of(made) == "__call__" else _stepped(made, name, fed)
 
     return Run(name, f"{what} of an object that takes a sample a call", call)
 
