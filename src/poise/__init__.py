@@ -17,6 +17,7 @@ _HOME = {
     "Armband": "poise.estimators.armband",
     "Attitude": "poise.data.attitude",
     "Comparison": "poise.comparison",
+    "Conformance": "poise.conformance",
     "Errors": "poise.evaluation",
     "Flag": "poise.data.flags",
     "Gated": "poise.estimators.gated",
@@ -34,6 +35,7 @@ _HOME = {
     "Tilt": "poise.estimators.tilt",
     "TwoStage": "poise.estimators.two_stage",
     "compare": "poise.comparison",
+    "conform": "poise.conformance",
     "estimate": "poise.estimators.engine",
     "evaluate": "poise.evaluation",
     "read": "poise.formats",
@@ -49,6 +51,8 @@ __all__ = [*_HOME]  # noqa: PLE0604  (a literal below would say everything twice
 if TYPE_CHECKING:
     from poise.comparison import Comparison as Comparison
     from poise.comparison import compare as compare
+    from poise.conformance import Conformance as Conformance
+    from poise.conformance import conform as conform
     from poise.data.attitude import Attitude as Attitude
     from poise.data.flags import Flag as Flag
     from poise.data.learned import Learned as Learned

@@ -8,6 +8,7 @@ import sys
 from cyclopts import App, CycloptsError, Parameter
 
 from poise.cli.compare import compare
+from poise.cli.conform import conform
 from poise.cli.demo import demo
 from poise.cli.estimate import estimate
 from poise.cli.evaluate import evaluate
@@ -30,6 +31,7 @@ writes the attitude and a picture. No file at hand?
 app.command(estimate)
 app.command(evaluate)
 app.command(compare)
+app.command(conform)
 app.command(plot)
 app.command(sniff)
 app.command(methods)
