@@ -117,7 +117,8 @@ def merged(several: list[Corrections]) -> Corrections:
 def options(fix: Corrections, read_as: Mapping[str, str] | None = None) -> str:
     """*fix* as options of the command line: ``--units gyr=deg/s --remap "acc=y -x z"``."""
     told = []
-    units = [f"{sensor}={unit_after(sensor, factor, read_as)}" for sensor, factor in fix.factors.items()]
+    named = {sensor: unit_after(sensor, factor, read_as) for sensor, factor in fix.factors.items()}
+    units = [f"{sensor}={unit}" for sensor, unit in named.items() if unit]
     if units:
         told.append(f"--units {','.join(units)}")
     if fix.axes:
@@ -128,9 +129,9 @@ def options(fix: Corrections, read_as: Mapping[str, str] | None = None) -> str:
 
 
 def unit_after(sensor: str, factor: float, read_as: Mapping[str, str] | None = None) -> str:
-    """The unit that a sensor's numbers are in, where they were taken for *read_as* (or SI) and lack *factor*."""
+    """The unit of a sensor's numbers that were taken for *read_as* (or SI) and lack *factor*; empty where none is so large."""
     table = FACTORS[sensor]
     taken = table[(read_as or {}).get(sensor, SI[sensor])]
     wanted = taken / factor if sensor == "time" else taken * factor  # time: how many go into a second
     best = min(table, key=lambda unit: max(table[unit] / wanted, wanted / table[unit]))
-    return best if 0.99 < table[best] / wanted < 1.01 else f"{wanted:g}"
+    return best if 0.99 < table[best] / wanted < 1.01 else ""

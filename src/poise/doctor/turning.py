@@ -22,7 +22,7 @@ LEAST_WINDOWS = 8  # a short recording has shorter ones
 _LONGEST = 2.0  # of the usual length: a shock is no vote
 _SLOW = 0.05  # of the blocks
 _LARGEST_BIAS = 0.1  # rad/s: more is a turn
-_FLOOR = 3e-4  # of the squared length, 1°: nearer than that no sensor's axes are
+FLOOR = 3e-4  # of the squared length, 1°: nearer than that no sensor's axes are
 
 
 @cache
@@ -76,7 +76,7 @@ class Turns(NamedTuple):
         """(windows, 49) log-losses above a floor: a window's vote, which no single accident can carry; the last is still."""
         if not len(self.loss):
             return np.empty((0, 49))
-        floor = _FLOOR + float(np.median(self.loss.min(axis=1)))
+        floor = FLOOR + float(np.median(self.loss.min(axis=1)))
         return np.asarray(np.log(floor + np.column_stack([self.loss, self.still])))
 
     @property
@@ -127,6 +127,9 @@ def blocks(recording: Recording, time: Floats | None = None) -> Blocks:
         means(recording.acc, recording.acc_age if aged[0] else None),
         means(mag, recording.mag_age if aged[1] else None),
     )
+
+
+NO_TURNS = Turns(np.empty((0, 48)), np.empty(0))
 
 
 class Path(NamedTuple):
