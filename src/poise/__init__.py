@@ -17,6 +17,7 @@ _HOME = {
     "Armband": "poise.estimators.armband",
     "Attitude": "poise.data.attitude",
     "Comparison": "poise.comparison",
+    "Diagnosis": "poise.doctor",
     "Errors": "poise.evaluation",
     "Flag": "poise.data.flags",
     "Gated": "poise.estimators.gated",
@@ -31,6 +32,7 @@ _HOME = {
     "Tilt": "poise.estimators.tilt",
     "TwoStage": "poise.estimators.two_stage",
     "compare": "poise.comparison",
+    "diagnose": "poise.doctor",
     "estimate": "poise.estimators.engine",
     "evaluate": "poise.evaluation",
     "read": "poise.formats",
@@ -49,6 +51,8 @@ if TYPE_CHECKING:
     from poise.data.flags import Flag as Flag
     from poise.data.packet import Packet as Packet
     from poise.data.recording import Recording as Recording
+    from poise.doctor import Diagnosis as Diagnosis
+    from poise.doctor import diagnose as diagnose
     from poise.errors import PoiseError as PoiseError
     from poise.estimators import METHODS as METHODS
     from poise.estimators.adaptive_gain import AdaptiveGain as AdaptiveGain

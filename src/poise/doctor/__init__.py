@@ -96,7 +96,7 @@ def _of_axes(
             "hemisphere (--hemisphere)"
         )
         found.append(Finding("acc sign", "likely", text, Corrections(axes={"acc": "-x -y -z"}), decided=False))
-    del answer
+
     return found
 
 

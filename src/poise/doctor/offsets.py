@@ -21,7 +21,7 @@ _ROUNDS = 4  # of fits in which what lies far off counts less
 _CERTAIN = 4.0  # sigma
 _WORTH = 0.004  # s: less costs less than a tenth of a degree in most motions
 _LARGEST = 0.25  # s: what is beyond is no delay but another fault
-_UNEXPLAINED = 0.2
+_UNEXPLAINED = {"acc": 0.05, "mag": 0.2}  # of the power; an acceleration goes with the turn that it makes, and looks like a delay
 _KNOWN = 0.03  # of the field, the sigma of a hard iron that is well determined
 
 
@@ -63,10 +63,11 @@ def findings(recording: Recording) -> list[Finding]:
 def _of_delay(sensor: str, name: str, fitted: Fit) -> Finding:
     late, sigma = fitted.delay, fitted.delay_sigma
     figures = f"{1e3 * late:.1f} ± {1e3 * sigma:.1f} ms, from {fitted.pairs} pairs of directions"
-    if sigma > _WORTH or abs(late) > _LARGEST or fitted.left > _UNEXPLAINED:
+    most = _UNEXPLAINED[sensor]
+    if sigma > _WORTH or abs(late) > _LARGEST or fitted.left > most:
         text = f"the delay of the {name} against the gyroscope is not determined ({figures})"
-        if fitted.left > _UNEXPLAINED:
-            text += f": turning explains only {1.0 - fitted.left:.0%} of how its direction changes"
+        if fitted.left > most:
+            text += f": turning explains only {max(1.0 - fitted.left, 0.0):.0%} of how its direction changes"
         return Finding(f"{sensor} delay", "note", text, decided=False)
     if abs(late) > _CERTAIN * sigma and abs(late) >= _WORTH:
         text = f"the {name} is {'late' if late > 0 else 'early'} against the gyroscope: {figures}"

@@ -3,7 +3,7 @@
 from poise.formats.assemble import SensorFacts, Sniffed
 from poise.formats.attitudes import read_attitude, wrote_attitude
 from poise.formats.limits import Limits
-from poise.formats.reading import read, sniff
+from poise.formats.reading import examine, read, sniff
 from poise.formats.writing import write
 
-__all__ = ["Limits", "SensorFacts", "Sniffed", "read", "read_attitude", "sniff", "write", "wrote_attitude"]
+__all__ = ["Limits", "SensorFacts", "Sniffed", "examine", "read", "read_attitude", "sniff", "write", "wrote_attitude"]
