@@ -31,8 +31,8 @@ def diagnose(
     """
     found, evidence = _of_units_and_axes(recording, hemisphere)
     if thorough:
-        found += timing.findings(recording) + samples.findings(recording)
         fixed = Diagnosis(recording, tuple(found)).repairs.apply(recording)
+        found += timing.findings(fixed) + samples.findings(fixed)
         if not any(f.severity == "sure" and not f.decided for f in found):
             found += offsets.findings(fixed)
     order = {severity: i for i, severity in enumerate(RANK)}
@@ -58,7 +58,7 @@ def _of_units_and_axes(recording: Recording, hemisphere: Hemisphere) -> tuple[li
     found += [of_gyr] if of_gyr else []
     verdict = axes.judge(rates.acc, rates.mag)
     found += _of_axes(verdict, rates, blocks, recording, hemisphere)
-    return found, Evidence(rates.acc, rates.mag, verdict, {"as found": as_is, "used": rates})
+    return found, Evidence(rates.acc, rates.mag, verdict)
 
 
 def _empty(recording: Recording) -> Finding | None:
@@ -123,7 +123,7 @@ def _wrong(
             f'two is wrong: gyr as "{axes.words(fix.matrix)}" fits, and so do other axes of acc'
         )
         return Finding("axes", "sure", text, correction, decided=False)
-    text = f'the {_SENSORS[answer.sensor]}\'s axes are "{axes.words(fix.matrix)}" of the others\' {clear}'
+    text = f"the {_SENSORS[answer.sensor]}'s axes do not fit the others' {clear}; \"{axes.words(fix.matrix)}\" of its own do"
     if answer.sensor != "gyr":
         assumed = f"the sign by the dip of {_dip(fix.cosine):+.0f}°, {hemisphere}ern hemisphere assumed"
         text += f"; {assumed}" if fix.decided else "; its sign cannot be told, the dip is too small"

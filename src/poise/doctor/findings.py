@@ -37,9 +37,7 @@ class Evidence:
 
     acc: Turns
     mag: Turns
-    axes: Verdict | None
-    rates: Mapping[str, float] = field(default_factory=dict)
-    """the mean loss by factor tried on the gyroscope's numbers"""
+    axes: Verdict
 
 
 @dataclass(frozen=True, eq=False)
