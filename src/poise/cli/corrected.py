@@ -85,7 +85,9 @@ def _remaps(text: str | None) -> dict[str, str]:
     for part in re.split(r"[,;\s]+(?=\w+\s*=)", text.strip()):
         sensor, _, words = (piece.strip() for piece in part.partition("="))
         if sensor not in _TABLES["remap"] or not words:
-            usage(f'--remap {text!r}: expected axes such as "y -x z", or those of single sensors: "acc=y -x z,mag=-x y z"')
+            usage(
+                f'--remap {text!r}: expected axes such as "y -x z", or those of single sensors: "acc=y -x z,mag=-x y z"'
+            )
         told[sensor] = words
     return told
 
@@ -143,7 +145,8 @@ def with_profile(reading: Reading) -> Reading:
         "delay": pairs(reading.delay, "--delay", "mag=0.015") or {},
     }
     merged = {name: profile.get(name, {}) | values for name, values in told.items()}
-    return replace(reading, profile=None, **{name: _joined(values) for name, values in merged.items()})
+    text = {name: _joined(values) for name, values in merged.items()}
+    return replace(reading, profile=None, units=text["units"], remap=text["remap"], delay=text["delay"])
 
 
 def _loaded(path: Path) -> dict[str, dict[str, Any]]:

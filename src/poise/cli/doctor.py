@@ -84,7 +84,8 @@ def doctor(
         return 1
     if json:
         results = [
-            {"file": str(one.file), "reader": one.reader, "command": command(one)} | one.diagnosis.to_dict() for one in done
+            {"file": str(one.file), "reader": one.reader, "command": command(one)} | one.diagnosis.to_dict()
+            for one in done
         ]
         show.as_json({"results": results, "errors": refused})
     else:
@@ -188,7 +189,9 @@ def _write(done: list[Examined], save_profile: Path | None, sheet: Path | None) 
         make_room(save_profile)
         one = done[0]
         corrected.save_profile(one.reading, save_profile, f"what repairs {one.file.name}, by poise doctor")
-        written.append(f"profile in {save_profile}; poise estimate {shlex.quote(str(one.file))} --profile {save_profile}")
+        written.append(
+            f"profile in {save_profile}; poise estimate {shlex.quote(str(one.file))} --profile {save_profile}"
+        )
     if sheet is not None and done:
         make_room(sheet)
         if sheet.suffix.lower() in _PAGES:

@@ -34,7 +34,8 @@ def rotation_matrix(axes: str | ArrayLike, *, mirror: bool = False) -> NDArray[n
         raise RecordingError(f"axes {axes!r} are not a rotation: each of x, y, z must appear once; expected {_EXAMPLE}")
     if np.linalg.det(matrix) < 0 and not mirror:
         raise RecordingError(
-            f"axes {axes!r} make a left-handed frame (a mirror image, which no mounting can be); flip one sign, or rename one sensor alone"
+            f"axes {axes!r} make a left-handed frame (a mirror image, which no mounting can be); flip one sign, "
+            "or rename a single sensor's"
         )
     return matrix
 

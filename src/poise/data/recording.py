@@ -139,7 +139,9 @@ class Recording:
             if sensor not in ("gyr", "acc", "mag"):
                 raise RecordingError(f"sensor: expected gyr, acc or mag, found {sensor!r}")
             with np.errstate(invalid="ignore"):
-                return self.with_samples(**{sensor: getattr(self, sensor) @ axes.rotation_matrix(new_axes, mirror=True).T})
+                return self.with_samples(
+                    **{sensor: getattr(self, sensor) @ axes.rotation_matrix(new_axes, mirror=True).T}
+                )
         turn = axes.rotation_matrix(new_axes)
         truth = self.truth
         if truth is not None:
@@ -161,7 +163,9 @@ class Recording:
         moved: dict[str, Any] = {}
         for sensor, late in seconds.items():
             if sensor not in ("acc", "mag"):
-                raise RecordingError(f"delay: expected acc or mag, whose delay counts from the gyroscope; found {sensor!r}")
+                raise RecordingError(
+                    f"delay: expected acc or mag, whose delay counts from the gyroscope; found {sensor!r}"
+                )
             if not abs(late) <= _EARLIEST * 2:
                 raise RecordingError(f"delay of {sensor}: expected seconds, at most 1, found {late:g}")
             if len(self) > 1 and not (np.diff(self.time) > 0).all():

@@ -12,6 +12,7 @@ from poise.doctor.findings import RANK, Diagnosis, Evidence, Finding
 
 __all__ = ["Corrections", "Diagnosis", "Finding", "Hemisphere", "diagnose"]
 
+_LARGEST = 1e12  # no sensor's number, in any unit
 _SENSORS = {"gyr": "gyroscope", "acc": "accelerometer", "mag": "magnetometer"}
 
 
@@ -29,6 +30,7 @@ def diagnose(
     axes are judged. *read_as* names the units that a file's numbers were taken for, so that options can name the right
     ones.
     """
+    given, recording = recording, _bounded(recording)
     found, evidence = _of_units_and_axes(recording, hemisphere)
     if thorough:
         fixed = Diagnosis(recording, tuple(found)).repairs.apply(recording)
@@ -37,7 +39,19 @@ def diagnose(
             found += offsets.findings(fixed)
     order = {severity: i for i, severity in enumerate(RANK)}
     found.sort(key=lambda f: order[f.severity])
-    return Diagnosis(recording, tuple(found), evidence, dict(read_as or {}))
+    return Diagnosis(given, tuple(found), evidence, dict(read_as or {}))
+
+
+def _bounded(recording: Recording) -> Recording:
+    """*recording* with what is not finite, or so large that its square is not, as missing."""
+    bounded = {}
+    for sensor in _SENSORS:
+        values = getattr(recording, sensor)
+        with np.errstate(invalid="ignore"):
+            wild = ~(np.abs(values) < _LARGEST) & ~np.isnan(values)
+        if wild.any():
+            bounded[sensor] = np.where(wild, np.nan, values)
+    return recording.with_samples(**bounded) if bounded else recording
 
 
 def _of_units_and_axes(recording: Recording, hemisphere: Hemisphere) -> tuple[list[Finding], Evidence | None]:
@@ -64,20 +78,22 @@ def _of_units_and_axes(recording: Recording, hemisphere: Hemisphere) -> tuple[li
 def _empty(recording: Recording) -> Finding | None:
     """The recording is none: no rows, or a gyroscope or accelerometer without samples."""
     absent = [
-        name for sensor, name in _SENSORS.items() if sensor != "mag" and not np.isfinite(getattr(recording, sensor)).any()
+        name
+        for sensor, name in _SENSORS.items()
+        if sensor != "mag" and not np.isfinite(getattr(recording, sensor)).any()
     ]
-    if len(recording) >= 2 and not absent and np.isfinite(recording.time).sum() >= 2:
+    rises = bool((np.diff(recording.time[np.isfinite(recording.time)]) > 0).any())
+    if len(recording) >= 2 and not absent and rises:
         return None
-    what = f"only {len(recording)} rows" if len(recording) < 2 else f"no sample of the {' and the '.join(absent)}"
+    what = f"{len(recording)} rows" if len(recording) < 2 else f"no sample of the {' and the '.join(absent)}"
     if len(recording) >= 2 and not absent:
-        what = "no two rows have a time"
+        what = "no time stamp rises above the one before"
     return Finding("samples", "sure", f"{what}: nothing to estimate an attitude from", decided=False)
 
 
 def _of_axes(
     verdict: axes.Verdict, rates: units.Rates, blocks: turning.Blocks, recording: Recording, hemisphere: Hemisphere
 ) -> list[Finding]:
-    answer = verdict.answer
     figures = f"{verdict.against:.1f} standard deviations over {max(len(rates.acc.loss), len(rates.mag.loss))} windows"
     if verdict.wrong:
         return [_wrong(verdict, blocks, recording, hemisphere, figures)]
@@ -86,7 +102,9 @@ def _of_axes(
         found.append(Finding("axes", "cannot-tell", _why_not(verdict, rates), decided=False))
     cosine = float(np.trace(turning.mean_cosines(blocks.acc, blocks.mag)))
     if not recording.has_mag:
-        text = "without a magnetometer the sign of the accelerometer cannot be told: specific force is +g along up at rest"
+        text = (
+            "without a magnetometer the sign of the accelerometer cannot be told: specific force is +g along up at rest"
+        )
         found.append(Finding("acc sign", "note", text))
     elif axes.opposed(cosine, hemisphere):
         away = "up" if hemisphere == "north" else "down"
@@ -110,7 +128,8 @@ def _wrong(
         return Finding("axes", "sure", f"{text}: {_why(verdict)}", decided=False)
     if answer.sensor == "both":
         told = ", ".join(
-            f'{name} as "{axes.words(turning.signed_axes()[i].T)}"' for name, i in (("acc", answer.acc), ("mag", answer.mag))
+            f'{name} as "{axes.words(turning.signed_axes()[i].T)}"'
+            for name, i in (("acc", answer.acc), ("mag", answer.mag))
         )
         text = f"the axes of acc, mag and gyr all differ from each other {clear}: {told} would fit, each up to its sign"
         return Finding("axes", "sure", text, decided=False)
@@ -133,7 +152,9 @@ def _wrong(
 def _why_not(verdict: axes.Verdict, rates: units.Rates) -> str:
     windows = max(len(rates.acc.loss), len(rates.mag.loss))
     if not windows:
-        return "axes cannot be told: no two windows of 2 s hold gyroscope, accelerometer or magnetometer without a break"
+        return (
+            "axes cannot be told: no two windows of 2 s hold gyroscope, accelerometer or magnetometer without a break"
+        )
     seen = {
         name: np.degrees(np.sqrt(turns.still_total))
         for name, turns in (("gravity", rates.acc), ("the field", rates.mag))

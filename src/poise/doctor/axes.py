@@ -19,6 +19,7 @@ SURE = 3.5  # standard deviations of the windows' votes against every other answ
 _REFUTED = 4.5  # the same against the axes as they are alone, where none can be named
 AGREED = 3.0  # the same, to say that the axes as they are fit best
 _CLEAR = 2.0  # times smaller the loss must be: an alarm wants more than a consistent trifle
+_WORST = 1.25  # times what no gyroscope at all leaves: an answer that leaves more explains nothing
 _LEAST_DIP = 0.15  # cosine between specific force and field: nearer to the magnetic equator the dip has no sign
 
 
@@ -108,14 +109,17 @@ def _clear(answer: Answer, acc: Turns, mag: Turns, by_acc: Floats, by_mag: Float
     It must also be better than a gyroscope that says nothing: a sensor that swings to and fro on a rope feels a force that
     stands still in the body, and axes that turn about that force would "explain" it.
     """
-    better, gained, spread = 1.0, 0.0, 0.0
+    better, worst, gained, spread = 1.0, 0.0, 0.0, 0.0
     for turns, votes, index in ((acc, by_acc, answer.acc), (mag, by_mag, answer.mag)):
         if index == 0 or not len(votes):
             continue
-        better = max(better, float(turns.total[0] / max(turns.total[index], 1e-12)))
+        loss = float(turns.total[index])
+        worst = max(worst, loss / max(turns.still_total, 1e-12))
+        better = max(better, float(turns.total[0]) / max(loss, 1e-12))
         difference = votes[:, 48] - votes[:, index]
         gained, spread = gained + float(difference.sum()), spread + float(np.sum(difference**2))
-    return better >= _CLEAR and gained >= AGREED * np.sqrt(max(spread, 1e-12)), better
+    clear = better >= _CLEAR and worst <= _WORST and gained >= AGREED * np.sqrt(max(spread, 1e-12))
+    return bool(clear), better
 
 
 class Fix(NamedTuple):

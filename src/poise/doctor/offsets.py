@@ -19,9 +19,10 @@ _LAG = 10  # blocks from one direction to the other: 0.5 s
 _FOLDS = 20  # parts of the recording that are left out in turn: neighbouring windows are not independent
 _ROUNDS = 4  # of fits in which what lies far off counts less
 _CERTAIN = 4.0  # sigma
-_WORTH = 0.004  # s: less costs less than a tenth of a degree in most motions
+_WORTH = {"acc": 0.02, "mag": 0.004}  # s: an acceleration that goes with the turn that makes it looks like a delay
+_VAGUE = 0.004  # s, of sigma
 _LARGEST = 0.25  # s: what is beyond is no delay but another fault
-_UNEXPLAINED = {"acc": 0.05, "mag": 0.2}  # of the power; an acceleration goes with the turn that it makes, and looks like a delay
+_UNEXPLAINED = {"acc": 0.05, "mag": 0.2}  # of the power
 _KNOWN = 0.03  # of the field, the sigma of a hard iron that is well determined
 
 
@@ -64,15 +65,17 @@ def _of_delay(sensor: str, name: str, fitted: Fit) -> Finding:
     late, sigma = fitted.delay, fitted.delay_sigma
     figures = f"{1e3 * late:.1f} ± {1e3 * sigma:.1f} ms, from {fitted.pairs} pairs of directions"
     most = _UNEXPLAINED[sensor]
-    if sigma > _WORTH or abs(late) > _LARGEST or fitted.left > most:
+    if sigma > _VAGUE or abs(late) > _LARGEST or fitted.left > most:
         text = f"the delay of the {name} against the gyroscope is not determined ({figures})"
         if fitted.left > most:
             text += f": turning explains only {max(1.0 - fitted.left, 0.0):.0%} of how its direction changes"
         return Finding(f"{sensor} delay", "note", text, decided=False)
-    if abs(late) > _CERTAIN * sigma and abs(late) >= _WORTH:
+    if abs(late) > _CERTAIN * sigma and abs(late) >= _WORTH[sensor]:
         text = f"the {name} is {'late' if late > 0 else 'early'} against the gyroscope: {figures}"
         return Finding(f"{sensor} delay", "likely", text, Corrections(delays={sensor: round(late, 4)}))
-    return Finding(f"{sensor} delay", "note", f"the {name} is late by {figures}, against the gyroscope: nothing to correct")
+    return Finding(
+        f"{sensor} delay", "note", f"the {name} is late by {figures}, against the gyroscope: nothing to correct"
+    )
 
 
 def _of_iron(fitted: Fit, length: float) -> Finding:
@@ -122,8 +125,12 @@ def fit(vector: Floats, blocks: turning.Blocks, along: turning.Path) -> Fit | No
     for _ in range(_ROUNDS):
         weighted = (design * weight[:, None, None]).reshape(-1, 7)
         flat, target = design.reshape(-1, 7), residual.ravel()
-        normal = np.array([weighted[3 * a : 3 * b].T @ flat[3 * a : 3 * b] for a, b in zip(edges[:-1], edges[1:])])
-        right = np.array([weighted[3 * a : 3 * b].T @ target[3 * a : 3 * b] for a, b in zip(edges[:-1], edges[1:])])
+        normal = np.array(
+            [weighted[3 * a : 3 * b].T @ flat[3 * a : 3 * b] for a, b in zip(edges[:-1], edges[1:], strict=True)]
+        )
+        right = np.array(
+            [weighted[3 * a : 3 * b].T @ target[3 * a : 3 * b] for a, b in zip(edges[:-1], edges[1:], strict=True)]
+        )
         whole, all_right = normal.sum(axis=0), right.sum(axis=0)
         ridge = 1e-9 * np.trace(whole) * np.eye(7) / 7
         answer = np.linalg.solve(whole + ridge, all_right)
@@ -131,7 +138,7 @@ def fit(vector: Floats, blocks: turning.Blocks, along: turning.Path) -> Fit | No
         scale = max(1.5 * float(np.median(misfit)), 1e-9)
         weight = 1.0 / np.maximum(1.0, (misfit / scale) ** 2)
     left = float(np.sum(misfit**2) / max(float(np.sum((v2 - v1) ** 2)), 1e-12))
-    without = np.array([np.linalg.solve(whole - n + ridge, all_right - r) for n, r in zip(normal, right)])
+    without = np.array([np.linalg.solve(whole - n + ridge, all_right - r) for n, r in zip(normal, right, strict=True)])
     sigma = np.sqrt((_FOLDS - 1) / _FOLDS * np.sum((without - without.mean(axis=0)) ** 2, axis=0))
     if not (np.isfinite(sigma).all() and 0 < sigma[0] < _LARGEST):
         return None

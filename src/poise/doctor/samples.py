@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from poise.data.recording import Recording
-from poise.doctor.findings import Finding
+from poise.doctor.findings import Finding, Severity
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -41,18 +41,21 @@ def _missing(recording: Recording, sensor: str, known: Mask) -> list[Finding]:
     share = float(np.mean(~known))
     if not 0.0 < share < 0.5:  # more is a slower sensor
         return []
-    severity = "likely" if sensor == "gyr" and share > 0.01 else "note"
-    return [Finding(f"{sensor} missing", severity, f"{int(np.sum(~known))} rows ({share:.2%}) hold no sample of {sensor}")]  # type: ignore[arg-type]
+    severity: Severity = "likely" if sensor == "gyr" and share > 0.01 else "note"
+    text = f"{int(np.sum(~known))} rows ({share:.2%}) hold no sample of {sensor}"
+    return [Finding(f"{sensor} missing", severity, text)]
 
 
 def _stuck(recording: Recording, sensor: str, values: Floats, time: Floats) -> list[Finding]:
     """Stretches in which a sensor gives one and the same sample again and again."""
-    same = (np.diff(values, axis=0) == 0).all(axis=1)
+    same = np.asarray((np.diff(values, axis=0) == 0).all(axis=1))
     if not same.any():
         return []
     share = float(same.mean())
     if share == 1.0:
-        text = f"{sensor} gives one and the same sample from beginning to end: a sensor that is stuck, or not one at all"
+        text = (
+            f"{sensor} gives one and the same sample from beginning to end: a sensor that is stuck, or not one at all"
+        )
         return [Finding(f"{sensor} stuck", "likely", text)]
     edges = np.flatnonzero(np.diff(np.concatenate([[False], same, [False]]).astype(np.int8)))
     begin, end = time[edges[0::2]], time[edges[1::2]]
@@ -70,7 +73,9 @@ def _stuck(recording: Recording, sensor: str, values: Floats, time: Floats) -> l
         text = f"{share:.0%} of the samples of {sensor} repeat the one before: a slower sensor whose last value is held"
         found.append(Finding(f"{sensor} repeated", "likely", text))
     elif share > 0.01:
-        found.append(Finding(f"{sensor} repeated", "note", f"{share:.1%} of the samples of {sensor} repeat the one before"))
+        found.append(
+            Finding(f"{sensor} repeated", "note", f"{share:.1%} of the samples of {sensor} repeat the one before")
+        )
     return found
 
 
@@ -80,7 +85,7 @@ def _clipped(sensor: str, values: Floats) -> list[Finding]:
     values = values[np.append(True, (np.diff(values, axis=0) != 0).any(axis=1))]  # a held sample is one
     if len(values) < 20:
         return []
-    for axis, column in zip("xyz", values.T):
+    for axis, column in zip("xyz", values.T, strict=True):
         for end, sign in ((float(column.max()), "+"), (float(column.min()), "-")):
             at = column == end
             runs = np.diff(np.flatnonzero(np.diff(np.concatenate([[False], at, [False]]).astype(np.int8))))[0::2]
@@ -100,12 +105,12 @@ def _rest(recording: Recording) -> list[Finding]:
     count = len(recording) // rows
     if not count:
         return []
-    known = np.isfinite(recording.acc).all(axis=1)
+    known: Mask = np.asarray(np.isfinite(recording.acc).all(axis=1))
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         gyr = recording.gyr[: count * rows].reshape(count, rows, 3)
         acc = np.where(known[:, None], recording.acc, np.nan)[: count * rows].reshape(count, rows, 3)
         drift, noise = gyr.mean(axis=1), gyr.std(axis=1)
-        present = np.isfinite(acc).all(axis=2)
+        present: Mask = np.asarray(np.isfinite(acc).all(axis=2))
         n = present.sum(axis=1)[:, None]
         filled = np.where(present[:, :, None], acc, 0.0)
         level = filled.sum(axis=1) / n
@@ -122,7 +127,8 @@ def _rest(recording: Recording) -> list[Finding]:
     texts = [
         f"{where}; {int(rest.sum())} of {count} s rest",
         f"gyroscope bias {_three(bias)} °/s (it moves by up to {moved:.2g}), noise {_three(spread)} °/s",
-        f"|f| {force:.3f} m/s² ({force / recording.gravity - 1.0:+.1%} of gravity), noise {_three(np.median(shake[rest], axis=0))}",
+        f"|f| {force:.3f} m/s² ({force / recording.gravity - 1.0:+.1%} of gravity), "
+        f"noise {_three(np.median(shake[rest], axis=0))}",
     ]
     return [Finding("rest", "note", "; ".join(texts))]
 

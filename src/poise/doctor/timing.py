@@ -9,6 +9,7 @@ from poise.doctor.findings import Finding
 
 _GAP = 3.0  # usual steps
 _JITTER = 0.02  # of the usual step
+_PAUSE = 2.0  # s: a longer gap is a pause, not lost samples
 _DROP = 1.5  # usual steps: a sample is missing
 
 
@@ -35,7 +36,8 @@ def findings(recording: Recording) -> list[Finding]:
             f"together {gaps.sum():.2f} s"
         )
         found.append(Finding("gaps", "note", text))
-    missing = int(np.sum(np.round(known[(known > _DROP * usual)] / usual) - 1))
+    short = known[(known > _DROP * usual) & (known < _PAUSE)]
+    missing = int(np.sum(np.round(short / usual) - 1))
     if missing:
         share = missing / (len(recording) + missing)
         text = f"about {missing} samples ({share:.2%}) are missing, by steps of two usual ones or more"

@@ -20,6 +20,8 @@ WINDOW = 2.0  # s: long enough for accelerations to average out, short enough fo
 LAGS = (1, 3)  # windows from one mean to those it is compared with
 LEAST_WINDOWS = 8  # a short recording has shorter ones
 _LONGEST = 2.0  # of the usual length: a shock is no vote
+_SPARSEST = 4  # blocks for each row
+_WILDEST = 1e4  # rad in a block: in no unit does anything turn like that
 _SLOW = 0.05  # of the blocks
 _LARGEST_BIAS = 0.1  # rad/s: more is a turn
 FLOOR = 3e-4  # of the squared length, 1°: nearer than that no sensor's axes are
@@ -99,9 +101,10 @@ def blocks(recording: Recording, time: Floats | None = None) -> Blocks:
         return Blocks(0.0, BLOCK, *(np.empty((0, 3)) for _ in range(3)))
     width = max(BLOCK, 1.01 * float(np.median(steps)))
     low, high = float(stamps[known].min()), float(stamps[known].max())
-    if high - low > 1e7 * width:  # stamps that jump: what is far from most of them is not looked at
+    most = width * (_SPARSEST * len(stamps) + 1000)
+    if high - low > most:  # stamps that jump: what is far from most of them is not looked at
         middle = float(np.median(stamps[known]))
-        low, high = max(low, middle - 1e6 * width), min(high, middle + 1e6 * width)
+        low, high = max(low, middle - most / 2), min(high, middle + most / 2)
     count = int((high - low) / width) + 1
 
     def means(values: Floats, ages: Floats | None) -> Floats:
@@ -123,7 +126,7 @@ def blocks(recording: Recording, time: Floats | None = None) -> Blocks:
     return Blocks(
         low,
         width,
-        means(recording.gyr, None),
+        means(recording.gyr, np.full(len(stamps), float(np.median(steps)) / 2)),  # the mean since the row before
         means(recording.acc, recording.acc_age if aged[0] else None),
         means(mag, recording.mag_age if aged[1] else None),
     )
@@ -149,7 +152,7 @@ def path(found: Blocks, factor: float = 1.0) -> Path:
         offset = np.zeros(3)
     rate = (found.gyr - offset) * (factor * found.width)
     step = (rate[:-1] + rate[1:]) / 2
-    absent = ~np.isfinite(step).all(axis=1)
+    absent = ~np.asarray((np.abs(step) < _WILDEST).all(axis=1))
     step = np.where(absent[:, None], 0.0, step)
     unknown = np.concatenate([[0], np.cumsum(absent)]).astype(np.intp)
     return Path(_chained(step), _chained(-step), unknown)
@@ -227,8 +230,6 @@ def _matrices(quat: Floats) -> Floats:
         ],
         axis=1,
     ).reshape(-1, 3, 3)  # fmt: skip
-
-
 
 
 def mean_cosines(acc: Floats, mag: Floats) -> Floats:

@@ -22,6 +22,7 @@ _ACC = {"g": STANDARD_GRAVITY, "mg": STANDARD_GRAVITY * 1e-3, "m/s²": 1.0}
 _GYR = (np.pi / 180, 180 / np.pi, 1e-3, np.pi / 180e3)
 _NEAR = 1.5  # a median length within this factor of gravity is gravity
 _STEADY = 0.55  # of the median: the shortest tenth of any motion's force with gravity in it, but for violent ones
+_CLAIMED = 3.0  # times the misfit of deg/s: so much more do rates claim than one of the sensors sees
 _FREE = 0.3  # of gravity: no accelerometer on Earth shows less by its median
 _EARTH = (15.0, 90.0)  # µT, with some iron about
 _MAG = {"G": 100.0, "mG": 0.1, "nT": 1e-3, "mT": 1e3, "T": 1e6}
@@ -38,7 +39,9 @@ def of_time(recording: Recording) -> Finding | None:
     if RATES[0] / 10 <= 1.0 / step <= 5 * RATES[1]:
         return None
     fits = [factor for factor in _TIMES if RATES[0] <= 1.0 / (step * factor) <= RATES[1]]
-    said = f"the median step between stamps is {step:.4g} s, {1.0 / step:.4g} samples per second, which no gyroscope has"
+    said = (
+        f"the median step between stamps is {step:.4g} s, {1.0 / step:.4g} samples per second, which no gyroscope has"
+    )
     if len(fits) != 1:
         return Finding("time unit", "sure", f"{said}; no unit of time makes a rate of it", decided=False)
     fix = Corrections(factors={"time": fits[0]})
@@ -69,14 +72,16 @@ def of_acc(recording: Recording, found: Blocks) -> Finding | None:
             "An attitude needs the accelerometer's own samples (specific force): export the raw or total acceleration",
             decided=False,
         )  # fmt: skip
-    return Finding("acc unit", "likely", f"{said}, which is gravity ({gravity:.4g} m/s²) in no known unit", decided=False)
+    return Finding(
+        "acc unit", "likely", f"{said}, which is gravity ({gravity:.4g} m/s²) in no known unit", decided=False
+    )
 
 
 def _has_gravity(found: Blocks, length: float) -> bool:
     """Whether something of that length stands still in the room, whatever the gyroscope's unit and axes."""
     for factor in (1.0, *_GYR[:1]):
         turns = turning.turns(found.acc, turning.path(found, factor), found.width, length)
-        if len(turns.loss) and turns.total.min() < 0.2:
+        if len(turns.loss) and float(turns.total.min()) < 0.2:
             return True
     return False
 
@@ -124,7 +129,7 @@ def explains(tried: Rates) -> bool:
         votes = turns.votes
         difference = votes[:, 48] - votes[:, int(votes.sum(axis=0)[:48].argmin())] if len(votes) else np.zeros(1)
         gained, spread = gained + float(difference.sum()), spread + float(np.sum(difference**2))
-    return gained >= SURE * np.sqrt(max(spread, 1e-12))
+    return bool(gained >= SURE * np.sqrt(max(spread, 1e-12)))
 
 
 def of_gyr(found: Blocks, as_is: Rates, acc_length: float, mag_length: float) -> tuple[Finding | None, Rates]:
@@ -135,19 +140,20 @@ def of_gyr(found: Blocks, as_is: Rates, acc_length: float, mag_length: float) ->
     losses, still = _votes(tried)
     totals = [float(each.sum()) for each in losses]
     best = int(np.argmin(totals))
-    if best > 1 and tried[best].factor < 1 and _deviations(losses[1], losses[best]) < AGREED:
-        best = 1  # of factors that say "much less" deg/s is the usual one
+    if best > 1 and tried[best].factor < 1 and _deviations(still, losses[best]) < SURE:
+        best = 1  # where hardly anything turns, of all factors that say "much less" deg/s is the usual one
     if best == 0 or _deviations(losses[0], losses[best]) < SURE:
         return None, as_is
     seen, claimed = _deviations(still, losses[best]), _deviations(losses[0], still)
-    chosen = tried[best]
-    if seen < AGREED and not (chosen.factor < 1 and claimed >= SURE and seen > -AGREED):
+    chosen, apart = tried[best], _deviations(losses[0], losses[best])
+    nothing_turns = best == 1 and claimed >= SURE and _ratio(as_is, chosen) > _CLAIMED
+    if seen < AGREED and not nothing_turns:
         return None, as_is
     unit = unit_after("gyr", chosen.factor)
     what = f"it is in {unit}" if unit else f"its numbers must be multiplied by {chosen.factor:.4g}"
     sentence = (
         f"the turns that it claims are not those of gravity and the field: their loss is {_mean(as_is):.3g} as they are, "
-        f"{_mean(chosen):.3g} times {chosen.factor:.4g} ({_deviations(losses[0], losses[best]):.1f} standard deviations): {what}"
+        f"{_mean(chosen):.3g} times {chosen.factor:.4g} ({apart:.1f} standard deviations): {what}"
     )
     return Finding("gyr unit", "sure", sentence, Corrections(factors={"gyr": chosen.factor})), chosen
 
@@ -158,6 +164,12 @@ def _share(tried: Rates) -> float:
     return min(shares, default=1.0)
 
 
+def _ratio(worse: Rates, better: Rates) -> float:
+    """How many times larger the misfit of *worse* is, with the sensor that sees it best."""
+    both = ((worse.acc, better.acc), (worse.mag, better.mag))
+    return max((float(w.total.min() / max(b.total.min(), turning.FLOOR)) for w, b in both if len(w.loss)), default=0.0)
+
+
 def _mean(tried: Rates) -> float:
     return float(np.mean([t.total.min() for t in (tried.acc, tried.mag) if len(t.loss)]))
 
@@ -166,11 +178,11 @@ def _votes(tried: list[Rates]) -> tuple[list[Floats], Floats]:
     """(windows,) the votes for every factor, in the axes that suit it best, and for a gyroscope that says nothing."""
     found: list[list[Floats]] = [[] for _ in tried]
     silent: list[Floats] = []
-    for turns in zip(*((one.acc, one.mag) for one in tried)):
+    for turns in zip(*((one.acc, one.mag) for one in tried), strict=True):
         if not len(turns[0].loss):
             continue
         floor = turning.FLOOR + min(float(np.median(t.loss.min(axis=1))) for t in turns)
-        for votes, t in zip(found, turns):
+        for votes, t in zip(found, turns, strict=True):
             loss = np.log(floor + t.loss)
             votes.append(loss[:, int(loss.sum(axis=0).argmin())])
         silent.append(np.log(floor + turns[0].still))

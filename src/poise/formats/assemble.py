@@ -83,7 +83,7 @@ def assemble(path: Path, table: Table, options: Options, source: str, digest: st
     facts: dict[str, Any] = {"name": path.stem, "source": source, "source_hash": digest, "notes": said}
     if options.as_is:  # stamps in another unit, too: a recording would refuse them
         stamps = values.pop("time")
-        recording = Recording(time=np.arange(rows) * 0.01, **values, **facts).with_samples(time=stamps)
+        recording = Recording(time=np.arange(rows) / 100.0, **values, **facts).with_samples(time=stamps)
     else:
         recording = Recording(**values, **facts)
     return recording, _sniffed(recording, table, sensors)

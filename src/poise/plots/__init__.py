@@ -8,4 +8,13 @@ from poise.plots.inline import inline_svg
 from poise.plots.recording import recording_figure
 from poise.plots.style import FORMATS, POINTS, save_figure
 
-__all__ = ["FORMATS", "POINTS", "attitude_figure", "comparison_figure", "diagnosis_figure", "inline_svg", "recording_figure", "save_figure"]
+__all__ = [
+    "FORMATS",
+    "POINTS",
+    "attitude_figure",
+    "comparison_figure",
+    "diagnosis_figure",
+    "inline_svg",
+    "recording_figure",
+    "save_figure",
+]

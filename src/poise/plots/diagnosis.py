@@ -12,11 +12,9 @@ from poise.doctor.turning import LAGS, WINDOW
 from poise.math import arrays
 from poise.plots.style import (
     BLUE,
-    EDGE,
     INK,
     NARROW,
     ORANGE,
-    PALE,
     PAPER,
     QUIET,
     clock,
@@ -55,7 +53,7 @@ def diagnosis_figure(diagnosis: Diagnosis, title: str = "", *, narrow: bool = Fa
         known = np.flatnonzero(np.isfinite(values) & np.isfinite(time))
         keep = known[thinned(values[known], ax)]
         ax.plot(time[keep], values[keep], color=colour, lw=0.9, label=name)
-    axes[2].axhline(recording.gravity, color=QUIET, lw=1.0, ls=(0, (4, 2)), label="gravity")
+    axes[2].axhline(recording.gravity, color=ORANGE, lw=1.2, ls=(0, (4, 2)), zorder=3.0, label="gravity")
     fit(axes[2], least=1.0)
     fit(axes[3], least=10.0, floor=0.0)
     finish(figure, axes[:1], np.empty(0), "way to name the axes, the best first")
@@ -66,7 +64,11 @@ def diagnosis_figure(diagnosis: Diagnosis, title: str = "", *, narrow: bool = Fa
         legend(ax)
     repaired = "after repair" if diagnosis.repairs else ""
     facts = [f"{len(diagnosis.found('sure'))} sure, {len(diagnosis.found('likely'))} likely"]
-    head(figure, title or diagnosis.recording.name or "Diagnosis", facts + ([f"lower panels {repaired}"] * bool(repaired)))
+    head(
+        figure,
+        title or diagnosis.recording.name or "Diagnosis",
+        facts + ([f"lower panels {repaired}"] * bool(repaired)),
+    )
     return figure
 
 
@@ -83,14 +85,15 @@ def _draw_answers(ax: Axes, diagnosis: Diagnosis) -> None:
         order = np.argsort(misfit, kind="stable")
         ax.plot(np.arange(1, 49), misfit[order], "o", ms=4, color=colour, label=name, alpha=0.75)
         place = int(np.flatnonzero(order == 0)[0])
-        ax.plot(place + 1, misfit[0], "o", ms=11, mfc="none", mec=colour, mew=1.8, label=f"{name}, axes as they are")
+        ax.plot(place + 1, misfit[0], "o", ms=11, mfc="none", mec=colour, mew=1.8, label="_")
         still = float(_degrees(np.array(turns.still_total)))
         ax.axhline(still, color=colour, lw=1.0, ls=":", label="_")
-        ax.text(48.5, still, f" {name}, no gyroscope", va="bottom", ha="right", fontsize=8, color=colour)
         drawn = True
     if not drawn:
         _nothing(ax, "no windows to judge axes by")
         return
+    ax.plot([], [], "o", ms=9, mfc="none", mec=QUIET, mew=1.6, label="axes as they are")
+    ax.plot([], [], color=QUIET, lw=1.0, ls=":", label="no gyroscope at all")
     ax.set_yscale("log")
     ax.set_xlim(0.2, 48.8)
     _plain_ticks(ax)
@@ -108,7 +111,7 @@ def _draw_windows(ax: Axes, diagnosis: Diagnosis) -> None:
             continue
         best = getattr(evidence.axes.answer, sensor) if diagnosis.found("sure") else 0
         x = np.arange(len(turns.loss))
-        ax.plot(x, _degrees(turns.still), color=PALE if sensor == "acc" else EDGE, lw=0.9, ls=":", label=f"{name} seen to turn")
+        ax.plot(x, _degrees(turns.still), color=colour, lw=0.9, ls=":", alpha=0.7, label="_")
         ax.plot(x, _degrees(turns.loss[:, 0]), color=colour, lw=1.2, label=f"{name}, as it is")
         if best:
             ax.plot(x, _degrees(turns.loss[:, best]), color=colour, lw=1.2, ls="--", label=f"{name}, repaired")
@@ -116,12 +119,15 @@ def _draw_windows(ax: Axes, diagnosis: Diagnosis) -> None:
     if not drawn:
         _nothing(ax, f"no window has another {LAGS[0] * WINDOW:g} s later")
         return
+    ax.plot([], [], color=QUIET, lw=0.9, ls=":", label="no gyroscope at all")
     ax.set_yscale("log")
     _plain_ticks(ax)
     legend(ax)
 
 
-def _degrees(loss: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+def _degrees(
+    loss: np.ndarray[tuple[int, ...], np.dtype[np.float64]],
+) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
     return np.maximum(np.degrees(np.sqrt(loss)), _LEAST)
 
 

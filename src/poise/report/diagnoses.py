@@ -38,7 +38,9 @@ def _section(diagnosis: Diagnosis, command: str, i: int) -> str:
     for f in diagnosis.findings:
         cells = (("time", f.name), ("text", f.sentence), ("", options(f.fix, diagnosis.read_as)))
         rows.append(
-            f"<tr><th>{_text(f.severity)}</th>" + "".join(f'<td class="{k}">{_text(c)}</td>' for k, c in cells) + "</tr>"
+            f"<tr><th>{_text(f.severity)}</th>"
+            + "".join(f'<td class="{k}">{_text(c)}</td>' for k, c in cells)
+            + "</tr>"
         )
     header = "".join(f"<th>{name}</th>" for name in ("how sure", "what", "figures", "option"))
     parts.append(_grid(header, "".join(rows)))
