@@ -157,7 +157,8 @@ class Recording:
     def advance(self, **seconds: float) -> Recording:
         """The same samples with those of "acc" or "mag" set earlier: ``advance(mag=0.015)`` for one that comes 15 ms late.
 
-        They move to the rows that follow their own instants, as in :meth:`from_sensors`. Raises :class:`RecordingError` for
+        They move to the rows that follow their own instants, as in :meth:`from_sensors`; those of a sensor with a sample in
+        most rows by whole rows, so that none is lost to jitter, and an age may then be half a step below 0. Raises :class:`RecordingError` for
         another sensor, for more than 1 s, and where stamps do not rise, since rows are then found by their stamps.
         """
         moved: dict[str, Any] = {}
@@ -170,8 +171,16 @@ class Recording:
                 raise RecordingError(f"delay of {sensor}: expected seconds, at most 1, found {late:g}")
             if len(self) > 1 and not (np.diff(self.time) > 0).all():
                 raise RecordingError(f"delay of {sensor}: cannot be taken out where stamps do not rise from row to row")
+            values = getattr(self, sensor)
             own = self.time - getattr(self, f"{sensor}_age") - late
-            moved[sensor], moved[f"{sensor}_age"] = place(sensor, self.time, own, getattr(self, sensor))
+            step = 1.0 / self.rate_hz if len(self) > 1 else 0.0
+            snap = 0.0
+            if (
+                step and np.isfinite(values).all(axis=1).mean() > 0.5
+            ):  # a sample a row: to the nearest, however stamps jitter
+                snap = late - (np.round(late / step) + 0.5) * step
+            moved[sensor], age = place(sensor, self.time, own + snap, values)
+            moved[f"{sensor}_age"] = np.where(np.isfinite(moved[sensor]).all(axis=1), age + snap, 0.0)
         return self.with_samples(**moved)
 
     @property

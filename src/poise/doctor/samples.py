@@ -13,6 +13,7 @@ Mask = NDArray[np.bool_]
 
 _SENSORS = ("gyr", "acc", "mag")
 _FEWEST = 3  # samples in a row at the very same largest value: a clipped peak
+_NEIGHBOURS = 20  # values next to the largest
 _STUCK = 0.5  # s of one and the same sample
 _REST = 1.0  # s: windows in which rest is looked for
 _REST_GYR, _REST_ACC = 0.02, 0.15  # rad/s, m/s²: the standard deviation of what rests in a hand's reach
@@ -89,14 +90,22 @@ def _clipped(sensor: str, values: Floats) -> list[Finding]:
         for end, sign in ((float(column.max()), "+"), (float(column.min()), "-")):
             at = column == end
             runs = np.diff(np.flatnonzero(np.diff(np.concatenate([[False], at, [False]]).astype(np.int8))))[0::2]
-            peak = abs(end - float(np.median(column)))
-            if runs.max() >= _FEWEST and peak > 5.0 * float(np.percentile(np.abs(column - np.median(column)), 75)):
+            if runs.max() >= _FEWEST and _piled_up(column, end):
                 found.append((int(at.sum()), f"{sign}{axis} at {end:.4g}"))
     if not found:
         return []
     count = sum(n for n, _ in found)
     text = f"{count} samples of {sensor} are cut off: {', '.join(where for _, where in found)}; its range was too small"
     return [Finding(f"{sensor} clipped", "likely", text)]
+
+
+def _piled_up(column: Floats, end: float) -> bool:
+    """Whether the end of the range is met far more often than the values next to it; a slow signal may dwell, too."""
+    values, counts = np.unique(column, return_counts=True)
+    nearest = np.argsort(np.abs(values - end))[: _NEIGHBOURS + 1]
+    beside = nearest[1:]
+    most = float(counts[nearest[0]])
+    return len(beside) >= 3 and most > _FEWEST and most >= 4.0 * float(np.median(counts[beside]))
 
 
 def _rest(recording: Recording) -> list[Finding]:
