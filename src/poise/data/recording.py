@@ -179,7 +179,9 @@ class Recording:
                 step and np.isfinite(values).all(axis=1).mean() > 0.5
             ):  # a sample a row: to the nearest, however stamps jitter
                 snap = late - (np.round(late / step) + 0.5) * step
-            moved[sensor], age = place(sensor, self.time, own + snap, values)
+            stamps = own + snap
+            stamps[stamps < self.time[:1] - step] = np.nan  # what came before the first row is no sample of it
+            moved[sensor], age = place(sensor, self.time, stamps, values)
             moved[f"{sensor}_age"] = np.where(np.isfinite(moved[sensor]).all(axis=1), age + snap, 0.0)
         return self.with_samples(**moved)
 
