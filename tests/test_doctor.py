@@ -95,7 +95,7 @@ def test_two_renamed_sensors_are_wrong_without_a_sure_fix(turned: Recording) -> 
 
 def test_a_rotation_of_all_sensors_is_no_fault(turned: Recording) -> None:
     found = diagnose(turned.remap("y z x"))
-    assert not found.found("sure") and not found.found("likely") or names(found, "likely") == ["mag delay"]
+    assert (not found.found("sure") and not found.found("likely")) or names(found, "likely") == ["mag delay"]
 
 
 @pytest.mark.parametrize("sensor", ["acc", "mag"])

@@ -158,8 +158,8 @@ class Recording:
         """The same samples with those of "acc" or "mag" set earlier: ``advance(mag=0.015)`` for one that comes 15 ms late.
 
         They move to the rows that follow their own instants, as in :meth:`from_sensors`; those of a sensor with a sample in
-        most rows by whole rows, so that none is lost to jitter, and an age may then be half a step below 0. Raises :class:`RecordingError` for
-        another sensor, for more than 1 s, and where stamps do not rise, since rows are then found by their stamps.
+        most rows by whole rows, so that none is lost to jitter, and an age may then be half a step below 0.
+        Raises :class:`RecordingError` for another sensor, for more than 1 s, and where stamps do not rise.
         """
         moved: dict[str, Any] = {}
         for sensor, late in seconds.items():

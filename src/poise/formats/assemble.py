@@ -178,7 +178,9 @@ def _decide(where: str, sensor: str, verdict: Verdict) -> str:
         return verdict.unit
     if sensor == "acc" and verdict.size < _FREE:
         raise FormatError(f"{where}: {_gravity_free(verdict)}; if it is that already, say --units acc=g (or mg)")
-    options = "--units acc=m/s² or acc=g" if sensor == "acc" else "--units gyr=rad/s or gyr=deg/s (poise doctor may tell)"
+    options = (
+        "--units acc=m/s² or acc=g" if sensor == "acc" else "--units gyr=rad/s or gyr=deg/s (poise doctor may tell)"
+    )
     raise FormatError(
         f"{where}: unit of {sensor} not named, and the samples do not decide: {verdict.sentence}; say it: {options}"
     )
