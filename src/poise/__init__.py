@@ -18,6 +18,7 @@ _HOME = {
     "Attitude": "poise.data.attitude",
     "Comparison": "poise.comparison",
     "Conformance": "poise.conformance",
+    "Diagnosis": "poise.doctor",
     "Errors": "poise.evaluation",
     "Flag": "poise.data.flags",
     "Gated": "poise.estimators.gated",
@@ -36,6 +37,7 @@ _HOME = {
     "TwoStage": "poise.estimators.two_stage",
     "compare": "poise.comparison",
     "conform": "poise.conformance",
+    "diagnose": "poise.doctor",
     "estimate": "poise.estimators.engine",
     "evaluate": "poise.evaluation",
     "read": "poise.formats",
@@ -59,6 +61,8 @@ if TYPE_CHECKING:
     from poise.data.learned import Learning as Learning
     from poise.data.packet import Packet as Packet
     from poise.data.recording import Recording as Recording
+    from poise.doctor import Diagnosis as Diagnosis
+    from poise.doctor import diagnose as diagnose
     from poise.errors import PoiseError as PoiseError
     from poise.estimators import METHODS as METHODS
     from poise.estimators.adaptive_gain import AdaptiveGain as AdaptiveGain

@@ -10,6 +10,7 @@ from cyclopts import App, CycloptsError, Parameter
 from poise.cli.compare import compare
 from poise.cli.conform import conform
 from poise.cli.demo import demo
+from poise.cli.doctor import doctor
 from poise.cli.estimate import estimate
 from poise.cli.evaluate import evaluate
 from poise.cli.methods import methods
@@ -21,7 +22,7 @@ app = App(
     help="""Attitude from inertial samples: gyroscope, accelerometer and magnetometer in, orientation out,
 with its uncertainty and its reasons.
 
-Start with your own file: `poise sniff walk.csv` says what poise makes of it, `poise estimate walk.csv --plot walk.png`
+Start with your own file: `poise doctor walk.csv` says what is wrong with it, `poise estimate walk.csv --plot walk.png`
 writes the attitude and a picture. No file at hand?
 `poise demo` makes three and compares every method on them. Every command explains itself with `--help`.""",
     help_format="markdown",
@@ -33,6 +34,7 @@ app.command(evaluate)
 app.command(compare)
 app.command(conform)
 app.command(plot)
+app.command(doctor)
 app.command(sniff)
 app.command(methods)
 app.command(demo)

@@ -231,7 +231,10 @@ def again(files: Sequence[Path], options: Sequence[tuple[str, object]]) -> str:
     """The command, as a shell takes it, that compares *files* with *options* again."""
     words = ["poise", "compare", *(f"./{f}" if str(f).startswith("-") else str(f) for f in files)]
     for name, value in options:
-        words += [f"{name}={value}"] if str(value).startswith("-") else [name, str(value)]
+        if value == "":  # a flag
+            words.append(name)
+        else:
+            words += [f"{name}={value}"] if str(value).startswith("-") else [name, str(value)]
     return shlex.join(words)
 
 
@@ -243,5 +246,6 @@ def _command(
     options += [("--with", with_)] if with_ else []
     options += [("--limit", limit)] if limit != 10.0 else []
     found = ((f"--{option.name}", getattr(reading, option.name)) for option in fields(reading))
-    options += [(name, value) for name, value in found if value is not None]
+    options += [(name, value) for name, value in found if value not in (None, False, True)]
+    options += [("--force", "")] if reading.force else []
     return again(files, [*options, ("--report", report)])

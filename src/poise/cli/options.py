@@ -57,13 +57,23 @@ class Reading:
     """The Imu topic of a ROS bag that has several, or both topics: `/imu/data_raw,/imu/mag` (`-`: no magnetometer)."""
 
     remap: str | None = None
-    """Rename the sensor's axes: `--remap "y -x z"` makes x its y, y its -x, z its z."""
+    """Rename the sensor's axes: `--remap "y -x z"` makes x its y, y its -x, z its z; those of one sensor against the
+    others', which may be a mirror image: `--remap "acc=y -x z,mag=-x y z"`."""
+
+    delay: str | None = None
+    """Seconds that a sensor's samples come late against the gyroscope's: `--delay mag=0.015`."""
+
+    profile: Path | None = None
+    """A file with --units, --remap and --delay, as `poise doctor --save-profile` writes it."""
+
+    force: Annotated[bool, Parameter(negative="")] = False
+    """Go on with a recording whose units or axes are surely wrong."""
 
     def read(self, path: Path) -> Recording:
-        from poise.formats import read
+        """The recording in *path*, corrected as told. Raises :class:`RecordingError` where it is surely wrong even so."""
+        from poise.cli import corrected
 
-        recording = read(path, **self.as_arguments())
-        return recording.remap(self.remap) if self.remap else recording
+        return corrected.read(self, path)
 
     def read_either(self, path: Path) -> Recording | Attitude:
         """The recording in *path*, or the attitude: what poise wrote as an attitude is one, in a ROS bag too."""
@@ -81,11 +91,15 @@ class Reading:
 
     def as_arguments(self) -> dict[str, Any]:
         """Keyword arguments of :func:`poise.read`; :class:`UsageError` where an option cannot be understood."""
+        if self.profile is not None:
+            from poise.cli import corrected
+
+            return corrected.with_profile(self).as_arguments()
         self._check()
         delimiter = {"tab": "\t", "space": " "}.get(self.delimiter or "", self.delimiter)
         return {
             "columns": self.columns,
-            "units": _pairs(self.units, "--units", "gyr=deg/s,acc=g"),
+            "units": pairs(self.units, "--units", "gyr=deg/s,acc=g"),
             "delimiter": delimiter,
             "decimal": self.decimal,
             "rate": self.rate,
@@ -93,15 +107,11 @@ class Reading:
         }
 
     def _check(self) -> None:
-        from poise.data.axes import rotation_matrix
+        from poise.cli import corrected
         from poise.formats.units import FACTORS
 
-        if self.remap:
-            try:
-                rotation_matrix(self.remap)
-            except PoiseError as error:
-                usage(f"--remap: {error}")
-        for sensor in _pairs(self.units, "--units", "gyr=deg/s,acc=g") or {}:
+        corrected.asked(self)
+        for sensor in pairs(self.units, "--units", "gyr=deg/s,acc=g") or {}:
             if sensor not in FACTORS:
                 usage(f"--units {sensor}=…: expected one of {', '.join(FACTORS)}")
         if self.rate is not None and not 0.0 < self.rate < math.inf:
@@ -278,7 +288,7 @@ def _parsed(text: str, kind: Any) -> Any:
     return text
 
 
-def _pairs(text: str | None, option: str, example: str) -> dict[str, str] | None:
+def pairs(text: str | None, option: str, example: str) -> dict[str, str] | None:
     if text is None:
         return None
     found = {}

@@ -12,10 +12,11 @@ from poise.errors import RecordingError
 _EXAMPLE = 'three signed axes such as "y -x z" (new x is the sensor\'s y, new y its -x, new z its z)'
 
 
-def rotation_matrix(axes: str | ArrayLike) -> NDArray[np.float64]:
+def rotation_matrix(axes: str | ArrayLike, *, mirror: bool = False) -> NDArray[np.float64]:
     """The proper rotation (3, 3) that *axes* names: words such as ``"y -x z"``, or the matrix itself.
 
-    Raises :class:`RecordingError` for anything that is not a right-handed rotation.
+    Raises :class:`RecordingError` for anything that is not a right-handed rotation; with *mirror* a left-handed one, as a
+    single sensor's axes may be written down, will do.
     """
     if isinstance(axes, str):
         words = re.findall(r"([+-]?)([xyz])", axes.lower())
@@ -31,9 +32,10 @@ def rotation_matrix(axes: str | ArrayLike) -> NDArray[np.float64]:
             raise RecordingError(f"a mounting rotation is a (3, 3) matrix, not {matrix.shape}; or give {_EXAMPLE}")
     if not np.allclose(matrix @ matrix.T, np.eye(3), atol=1e-6):
         raise RecordingError(f"axes {axes!r} are not a rotation: each of x, y, z must appear once; expected {_EXAMPLE}")
-    if np.linalg.det(matrix) < 0:
+    if np.linalg.det(matrix) < 0 and not mirror:
         raise RecordingError(
-            f"axes {axes!r} make a left-handed frame (a mirror image, which no mounting can be); flip one sign"
+            f"axes {axes!r} make a left-handed frame (a mirror image, which no mounting can be); flip one sign, "
+            "or rename a single sensor's"
         )
     return matrix
 

@@ -115,9 +115,9 @@ class Recording:
             rows = np.atleast_1d(rows)
         cut = {name: getattr(self, name)[rows] for name in ("time", "gyr", "acc", "mag", "acc_age", "mag_age")}
         cut |= {name: getattr(self, name)[rows] for name in ("truth", "moving") if getattr(self, name) is not None}
-        return self._with(**cut)
+        return self.with_samples(**cut)
 
-    def _with(self, **values: Any) -> Recording:
+    def with_samples(self, **values: Any) -> Recording:
         """A copy with other, already checked values: a few rows may lie further apart than any gyroscope's."""
         part = copy(self)
         part.__dict__.update(values)
@@ -127,12 +127,21 @@ class Recording:
         """The rows with start ≤ time < end, s."""
         return self[(self.time >= start) & (self.time < end)]
 
-    def remap(self, new_axes: str | ArrayLike) -> Recording:
+    def remap(self, new_axes: str | ArrayLike, sensor: str = "") -> Recording:
         """The same motion with the sensor's axes renamed or turned; the reference follows.
+
+        With *sensor* "gyr", "acc" or "mag" it is that one's axes against the others', which may be a mirror image, too.
 
         *new_axes* are words, ``"y -x z"``: the new x is the sensor's y, the new y its −x; or a mounting rotation, a
         (3, 3) matrix with v_new = M v_sensor. Raises :class:`RecordingError` for what is not a right-handed rotation.
         """
+        if sensor:
+            if sensor not in ("gyr", "acc", "mag"):
+                raise RecordingError(f"sensor: expected gyr, acc or mag, found {sensor!r}")
+            with np.errstate(invalid="ignore"):
+                return self.with_samples(
+                    **{sensor: getattr(self, sensor) @ axes.rotation_matrix(new_axes, mirror=True).T}
+                )
         turn = axes.rotation_matrix(new_axes)
         truth = self.truth
         if truth is not None:
@@ -143,7 +152,38 @@ class Recording:
             truth = replace(truth, table=table)
         with np.errstate(invalid="ignore"):  # infinite samples become NaN, as absent as they were
             turned = {name: getattr(self, name) @ turn.T for name in ("gyr", "acc", "mag")}
-        return self._with(**turned, truth=truth)
+        return self.with_samples(**turned, truth=truth)
+
+    def advance(self, **seconds: float) -> Recording:
+        """The same samples with those of "acc" or "mag" set earlier: ``advance(mag=0.015)`` for one that comes 15 ms late.
+
+        They move to the rows that follow their own instants, as in :meth:`from_sensors`; those of a sensor with a sample in
+        most rows by whole rows, so that none is lost to jitter, and an age may then be half a step below 0.
+        Raises :class:`RecordingError` for another sensor, for more than 1 s, and where stamps do not rise.
+        """
+        moved: dict[str, Any] = {}
+        for sensor, late in seconds.items():
+            if sensor not in ("acc", "mag"):
+                raise RecordingError(
+                    f"delay: expected acc or mag, whose delay counts from the gyroscope; found {sensor!r}"
+                )
+            if not abs(late) <= _EARLIEST * 2:
+                raise RecordingError(f"delay of {sensor}: expected seconds, at most 1, found {late:g}")
+            if len(self) > 1 and not (np.diff(self.time) > 0).all():
+                raise RecordingError(f"delay of {sensor}: cannot be taken out where stamps do not rise from row to row")
+            values = getattr(self, sensor)
+            own = self.time - getattr(self, f"{sensor}_age") - late
+            step = 1.0 / self.rate_hz if len(self) > 1 else 0.0
+            snap = 0.0
+            if (
+                step and np.isfinite(values).all(axis=1).mean() > 0.5
+            ):  # a sample a row: to the nearest, however stamps jitter
+                snap = late - (np.round(late / step) + 0.5) * step
+            stamps = own + snap
+            stamps[stamps < self.time[:1] - step] = np.nan  # what came before the first row is no sample of it
+            moved[sensor], age = place(sensor, self.time, stamps, values)
+            moved[f"{sensor}_age"] = np.where(np.isfinite(moved[sensor]).all(axis=1), age + snap, 0.0)
+        return self.with_samples(**moved)
 
     @property
     def rate_hz(self) -> float:

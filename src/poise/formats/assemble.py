@@ -80,7 +80,12 @@ def assemble(path: Path, table: Table, options: Options, source: str, digest: st
     if gravity := table.facts.get("poise.gravity"):
         values["gravity"] = _gravity(where, gravity)
     said = (*table.notes, *table.doubts)
-    recording = Recording(**values, name=path.stem, source=source, source_hash=digest, notes=said)
+    facts: dict[str, Any] = {"name": path.stem, "source": source, "source_hash": digest, "notes": said}
+    if options.as_is:  # stamps in another unit, too: a recording would refuse them
+        stamps = values.pop("time")
+        recording = Recording(time=np.arange(rows) / 100.0, **values, **facts).with_samples(time=stamps)
+    else:
+        recording = Recording(**values, **facts)
     return recording, _sniffed(recording, table, sensors)
 
 
@@ -104,12 +109,12 @@ def _time(where: str, table: Table, options: Options, rows: int) -> tuple[Floats
         return np.arange(rows) / rate, SensorFacts("s", f"from the rate of {rate:g} Hz", rows)
     stated, how = _stated(where, "time", table, options)
     verdict = evidence.of_time(stamps)
-    if not stated and not verdict.unit and len(stamps) > 1:
+    if not stated and not verdict.unit and len(stamps) > 1 and not options.as_is:
         raise FormatError(
             f"{where}: unit of time not named, and {verdict.sentence}; say it: --units time=s (or ms, us, ns, 100us)"
         )
     unit = stated or verdict.unit or "s"
-    if stated and not table.own and np.isfinite(verdict.size):
+    if stated and not table.own and np.isfinite(verdict.size) and not options.as_is:
         hz = units.FACTORS["time"][unit] / verdict.size
         if not evidence.RATES[0] / 10 <= hz <= evidence.RATES[1] * 5:
             fix = f"; say --units time={verdict.unit}" if verdict.unit else "; say the unit with --units time="
@@ -149,6 +154,8 @@ def _scale(
         unit, how = (unit, how) if unit else (units.AS_FOUND, "not named; only the direction counts")
         if unit == units.AS_FOUND:
             table.notes.append("mag: unit not known, values kept as they are: only the direction counts")
+    elif options.as_is:
+        unit, how = (unit, how) if unit else (units.SI[sensor], "not named")
     elif not table.own:
         if sensor == "acc":
             verdict = evidence.of_acc(found)
@@ -171,7 +178,9 @@ def _decide(where: str, sensor: str, verdict: Verdict) -> str:
         return verdict.unit
     if sensor == "acc" and verdict.size < _FREE:
         raise FormatError(f"{where}: {_gravity_free(verdict)}; if it is that already, say --units acc=g (or mg)")
-    options = "--units acc=m/s² or acc=g" if sensor == "acc" else "--units gyr=rad/s or gyr=deg/s"
+    options = (
+        "--units acc=m/s² or acc=g" if sensor == "acc" else "--units gyr=rad/s or gyr=deg/s (poise doctor may tell)"
+    )
     raise FormatError(
         f"{where}: unit of {sensor} not named, and the samples do not decide: {verdict.sentence}; say it: {options}"
     )

@@ -53,3 +53,5 @@ class Options:
     rate: float | None = None
     topic: str | None = None
     limits: Limits = Limits()
+    as_is: bool = False
+    """take units as they are stated, or SI, and ask the samples nothing: the doctor does that"""

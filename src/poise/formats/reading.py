@@ -59,6 +59,26 @@ def sniff(
     return _load(path, Options(columns, dict(units or {}), delimiter, decimal, rate, topic, limits))[1]
 
 
+def examine(
+    path: str | os.PathLike[str],
+    *,
+    columns: str | Sequence[str] | None = None,
+    units: Mapping[str, str] | None = None,
+    delimiter: str | None = None,
+    decimal: str | None = None,
+    rate: float | None = None,
+    topic: str | None = None,
+    limits: Limits = _DEFAULT,
+    as_is: bool = False,
+) -> tuple[Recording, Sniffed]:
+    """What :func:`read` and :func:`sniff` give, in one go.
+
+    With *as_is* no unit is asked of the samples, and none refused for them: those that the file or *units* states are
+    taken, SI where none does, so that what is wrong can be found out afterwards.
+    """
+    return _load(path, Options(columns, dict(units or {}), delimiter, decimal, rate, topic, limits, as_is))
+
+
 def _load(path: str | os.PathLike[str], options: Options) -> tuple[Recording, Sniffed]:
     source = str(path)
     path = Path(path)

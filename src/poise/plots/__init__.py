@@ -3,6 +3,7 @@ it is touched."""
 
 from poise.plots.attitude import attitude_figure
 from poise.plots.comparison import comparison_figure
+from poise.plots.diagnosis import diagnosis_figure
 from poise.plots.inline import inline_svg
 from poise.plots.learning import learning_figure
 from poise.plots.recording import recording_figure
@@ -13,6 +14,7 @@ __all__ = [
     "POINTS",
     "attitude_figure",
     "comparison_figure",
+    "diagnosis_figure",
     "inline_svg",
     "learning_figure",
     "recording_figure",

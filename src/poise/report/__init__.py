@@ -50,6 +50,11 @@ def report(
             progress(comparison.recording.name, i / len(comparisons))
         parts.append(_section(comparison, i))
     parts += [_settings(comparisons), _reproduce(command)]
+    return page(title, parts)
+
+
+def page(title: str, parts: Sequence[str]) -> str:
+    """A whole page of *parts*, which are HTML already; *title* is plain text."""
     style = files("poise.report").joinpath("style.css").read_text(encoding="utf-8")
     return (
         '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'

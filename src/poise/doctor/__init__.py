@@ -1,0 +1,189 @@
+"""The doctor: what is wrong with a recording, by physics, from the recording alone, and what repairs it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from poise.data.corrections import Corrections
+from poise.data.recording import Recording
+from poise.doctor import axes, offsets, samples, timing, turning, units
+from poise.doctor.axes import Hemisphere
+from poise.doctor.findings import RANK, Diagnosis, Evidence, Finding
+
+__all__ = ["Corrections", "Diagnosis", "Finding", "Hemisphere", "diagnose"]
+
+_LARGEST = 1e12  # no sensor's number, in any unit
+_SENSORS = {"gyr": "gyroscope", "acc": "accelerometer", "mag": "magnetometer"}
+
+
+def diagnose(
+    recording: Recording,
+    *,
+    hemisphere: Hemisphere = "north",
+    thorough: bool = True,
+    read_as: dict[str, str] | None = None,
+) -> Diagnosis:
+    """What is wrong with *recording*: units, axes, signs, delays, stamps, samples; with what repairs it.
+
+    Gravity and the magnetic field stand still in the room, so the gyroscope must explain how they turn in the body.
+    *hemisphere* says where the field points: its dip gives the sign of acc and mag. Without *thorough* only units and
+    axes are judged. *read_as* names the units that a file's numbers were taken for, so that options can name the right
+    ones.
+    """
+    given, recording = recording, _bounded(recording)
+    found, evidence = _of_units_and_axes(recording, hemisphere)
+    if thorough:
+        fixed = Diagnosis(recording, tuple(found)).repairs.apply(recording)
+        found += timing.findings(fixed) + samples.findings(fixed)
+        if not any(f.severity == "sure" and not f.decided for f in found):
+            found += offsets.findings(fixed)
+    order = {severity: i for i, severity in enumerate(RANK)}
+    found.sort(key=lambda f: order[f.severity])
+    return Diagnosis(given, tuple(found), evidence, dict(read_as or {}))
+
+
+def _bounded(recording: Recording) -> Recording:
+    """*recording* with what is not finite, or so large that its square is not, as missing."""
+    bounded = {}
+    for sensor in _SENSORS:
+        values = getattr(recording, sensor)
+        with np.errstate(invalid="ignore"):
+            wild = ~(np.abs(values) < _LARGEST) & ~np.isnan(values)
+        if wild.any():
+            bounded[sensor] = np.where(wild, np.nan, values)
+    return recording.with_samples(**bounded) if bounded else recording
+
+
+def _of_units_and_axes(recording: Recording, hemisphere: Hemisphere) -> tuple[list[Finding], Evidence | None]:
+    found = [f for f in (_empty(recording), units.of_time(recording)) if f]
+    per_second = found[-1].fix.factors.get("time", 1.0) if found else 1.0
+    if any(f.name == "samples" for f in found):
+        return found, None
+    blocks = turning.blocks(recording, recording.time * per_second if per_second != 1.0 else None)
+    of_acc = units.of_acc(recording, blocks)
+    found += [f for f in (of_acc, units.of_mag(recording)) if f]
+    length = _usual(blocks.acc)
+    if of_acc is None or "acc" in of_acc.fix.factors:
+        length = recording.gravity / (of_acc.fix.factors["acc"] if of_acc else 1.0)
+    as_is = units.rates(blocks, 1.0, length, _usual(blocks.mag))
+    if of_acc is not None and of_acc.name == "acc gravity":
+        as_is = as_is._replace(acc=turning.NO_TURNS)
+    of_gyr, rates = units.of_gyr(blocks, as_is, length, _usual(blocks.mag))
+    found += [of_gyr] if of_gyr else []
+    verdict = axes.judge(rates.acc, rates.mag)
+    found += _of_axes(verdict, rates, blocks, recording, hemisphere)
+    return found, Evidence(rates.acc, rates.mag, verdict)
+
+
+def _empty(recording: Recording) -> Finding | None:
+    """The recording is none: no rows, or a gyroscope or accelerometer without samples."""
+    absent = [
+        name
+        for sensor, name in _SENSORS.items()
+        if sensor != "mag" and not np.isfinite(getattr(recording, sensor)).any()
+    ]
+    rises = bool((np.diff(recording.time[np.isfinite(recording.time)]) > 0).any())
+    if len(recording) >= 2 and not absent and rises:
+        return None
+    what = f"{len(recording)} rows" if len(recording) < 2 else f"no sample of the {' and the '.join(absent)}"
+    if len(recording) >= 2 and not absent:
+        what = "no time stamp rises above the one before"
+    return Finding("samples", "sure", f"{what}: nothing to estimate an attitude from", decided=False)
+
+
+def _of_axes(
+    verdict: axes.Verdict, rates: units.Rates, blocks: turning.Blocks, recording: Recording, hemisphere: Hemisphere
+) -> list[Finding]:
+    figures = f"{verdict.against:.1f} standard deviations over {max(len(rates.acc.loss), len(rates.mag.loss))} windows"
+    if verdict.wrong:
+        return [_wrong(verdict, blocks, recording, hemisphere, figures)]
+    found = []
+    if not verdict.agreed:
+        found.append(Finding("axes", "cannot-tell", _why_not(verdict, rates), decided=False))
+    cosine = float(np.trace(turning.mean_cosines(blocks.acc, blocks.mag)))
+    if not recording.has_mag:
+        text = (
+            "without a magnetometer the sign of the accelerometer cannot be told: specific force is +g along up at rest"
+        )
+        found.append(Finding("acc sign", "note", text))
+    elif axes.opposed(cosine, hemisphere):
+        away = "up" if hemisphere == "north" else "down"
+        text = (
+            f"the field points {away} (dip {_dip(cosine):+.0f}°), which it does not in the {hemisphere}ern hemisphere: acc "
+            "has the other sign (the acceleration of gravity, not specific force), or mag has, or this is the other "
+            "hemisphere (--hemisphere)"
+        )
+        found.append(Finding("acc sign", "likely", text, Corrections(axes={"acc": "-x -y -z"}), decided=False))
+
+    return found
+
+
+def _wrong(
+    verdict: axes.Verdict, blocks: turning.Blocks, recording: Recording, hemisphere: Hemisphere, figures: str
+) -> Finding:
+    answer = verdict.answer
+    clear = f"({figures}, {verdict.better:.0f} times the misfit)"
+    if not verdict.sure:
+        text = f"the axes of the sensors do not fit each other {clear}, but the motion does not tell which are wrong"
+        return Finding("axes", "sure", f"{text}: {_why(verdict)}", decided=False)
+    if answer.sensor == "both":
+        told = ", ".join(
+            f'{name} as "{axes.words(turning.signed_axes()[i].T)}"'
+            for name, i in (("acc", answer.acc), ("mag", answer.mag))
+        )
+        text = f"the axes of acc, mag and gyr all differ from each other {clear}: {told} would fit, each up to its sign"
+        return Finding("axes", "sure", text, decided=False)
+    fix = axes.fix(answer, blocks.acc, blocks.mag, hemisphere)
+    correction = Corrections(axes={answer.sensor: axes.words(fix.matrix)})
+    name = f"{answer.sensor} axes"
+    if not recording.has_mag:
+        text = (
+            f"the axes of acc and gyr do not fit each other {clear}; without a magnetometer it cannot be told which of the "
+            f'two is wrong: gyr as "{axes.words(fix.matrix)}" fits, and so do other axes of acc'
+        )
+        return Finding("axes", "sure", text, correction, decided=False)
+    text = f"the {_SENSORS[answer.sensor]}'s axes do not fit the others' {clear}; \"{axes.words(fix.matrix)}\" of its own do"
+    if answer.sensor != "gyr":
+        assumed = f"the sign by the dip of {_dip(fix.cosine):+.0f}°, {hemisphere}ern hemisphere assumed"
+        text += f"; {assumed}" if fix.decided else "; its sign cannot be told, the dip is too small"
+    return Finding(name, "sure", text, correction, decided=fix.decided)
+
+
+def _why_not(verdict: axes.Verdict, rates: units.Rates) -> str:
+    windows = max(len(rates.acc.loss), len(rates.mag.loss))
+    if not windows:
+        return (
+            "axes cannot be told: no two windows of 2 s hold gyroscope, accelerometer or magnetometer without a break"
+        )
+    seen = {
+        name: np.degrees(np.sqrt(turns.still_total))
+        for name, turns in (("gravity", rates.acc), ("the field", rates.mag))
+        if len(turns.loss)
+    }
+    turned = " and ".join(f"{name} by {angle:.1f}°" for name, angle in seen.items())
+    return (
+        f"axes cannot be told: in {windows} windows of 2 s {turned} RMS is all that turns or shakes, and {_why(verdict)}; "
+        "turn the sensor slowly about all three axes for 30 s"
+    )
+
+
+def _why(verdict: axes.Verdict) -> str:
+    other = verdict.rival if verdict.answer.sensor == "" else verdict.answer
+    if other.sensor in ("", "both"):
+        return "several answers fit alike"
+    matrix = turning.signed_axes()[other.acc or other.mag]
+    matrix = matrix if other.sensor == "gyr" else matrix.T
+    apart = verdict.margin if verdict.answer.sensor == "" else verdict.against
+    return f'{other.sensor} as "{axes.words(matrix)}" fits about as well ({apart:.1f} standard deviations apart)'
+
+
+def _dip(cosine: float) -> float:
+    """Degrees below the horizon, from the cosine between force and field."""
+    return float(-np.degrees(np.arcsin(np.clip(cosine, -1.0, 1.0))))
+
+
+def _usual(vector: turning.Floats) -> float:
+    """The usual length of a sensor's block means; NaN without any."""
+    length = np.sqrt(np.einsum("ij,ij->i", vector, vector))
+    length = length[np.isfinite(length) & (length > 0)]
+    return float(np.median(length)) if len(length) else float("nan")

@@ -1,0 +1,120 @@
+"""``poise doctor`` as a user meets it: the verdict, the repaired command, profiles, sheets, and who refuses what."""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import poise
+from poise.cli import run
+from poise.simulation import Sensor, forearm, measure
+
+HEADER = "time,gx,gy,gz,ax,ay,az,mx,my,mz"
+
+
+@pytest.fixture
+def right() -> poise.Recording:
+    return measure(forearm(40.0, seed=2), Sensor(mag_delay=0.0), seed=2)
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, right: poise.Recording) -> Path:
+    """A folder with a recording that is right, and one with the gyroscope's axes swapped, in deg/s, without units."""
+    monkeypatch.chdir(tmp_path)
+    poise.write(right, tmp_path / "right.csv")
+    swapped = np.degrees(right.gyr)[:, [1, 0, 2]]
+    table(tmp_path / "glove.csv", HEADER, right.time, swapped, right.acc, right.mag)
+    return tmp_path
+
+
+def table(path: Path, header: str, *columns: Any) -> None:
+    np.savetxt(path, np.column_stack(columns), delimiter=",", header=header, comments="", fmt="%.9g")
+
+
+def test_the_walk_through(folder: Path, capsys: pytest.CaptureFixture[str], right: poise.Recording) -> None:
+    assert run(["estimate", "glove.csv"]) == 1  # neither unit nor axes: refused
+    assert run(["doctor", "glove.csv", "--save-profile", "glove.toml"]) == 1
+    text = capsys.readouterr().out
+    assert "glove.csv: surely wrong: gyr unit, gyr axes" in text
+    words = shlex.split(text.split("repaired: ")[1].splitlines()[0])
+    assert words[:3] == ["poise", "estimate", "glove.csv"] and "gyr=y x z" in words
+    assert run([*words[1:], "-m", "two-stage", "-o", "by-options.csv"]) == 0
+    assert run(["estimate", "glove.csv", "--profile", "glove.toml", "-m", "two-stage", "-o", "by-profile.csv"]) == 0
+    assert (folder / "by-options.csv").read_bytes()[-999:] == (folder / "by-profile.csv").read_bytes()[-999:]
+    found, expected = poise.read_attitude("by-profile.csv"), poise.estimate(poise.TwoStage(), right)
+    apart = 2 * np.arccos(np.clip(np.abs(np.sum(found.quat * expected.quat, axis=1)), 0, 1))
+    assert np.degrees(np.max(apart)) < 0.1
+    assert run(["doctor", "glove.csv", "--profile", "glove.toml"]) == 0
+    assert "surely" not in capsys.readouterr().out.replace("nothing surely", "")
+
+
+def test_a_right_recording_is_fine(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["doctor", "right.csv", "--json"]) == 0
+    (result,) = json.loads(capsys.readouterr().out)["results"]
+    assert result["options"] == "" and result["command"] == ""
+    assert all(f["severity"] != "sure" for f in result["findings"])
+
+
+def test_what_is_surely_wrong_is_refused_with_its_fix(
+    folder: Path, capsys: pytest.CaptureFixture[str], right: poise.Recording
+) -> None:
+    poise.write(right.remap("x y -z", "acc"), folder / "left-handed.csv")
+    for command in (["estimate"], ["evaluate"], ["plot"], ["compare", "-m", "tilt"]):
+        assert run([command[0], "left-handed.csv", *command[1:]]) == 1
+        (line,) = capsys.readouterr().err.strip().splitlines()
+        assert '--remap "acc=x y -z"' in line and "--force" in line and "Traceback" not in line
+    assert run(["evaluate", "left-handed.csv", "-m", "tilt", "--force"]) == 0
+    capsys.readouterr()
+    assert run(["evaluate", "left-handed.csv", "-m", "tilt", "--remap", "acc=x y -z"]) == 0
+
+
+def test_options_add_up(folder: Path, capsys: pytest.CaptureFixture[str], right: poise.Recording) -> None:
+    """What is found behind a turn of all sensors is said before it."""
+    poise.write(right.remap("x y -z", "acc"), folder / "a.csv")
+    assert run(["doctor", "a.csv", "--remap", "y z x", "--json"]) == 1
+    (result,) = json.loads(capsys.readouterr().out)["results"]
+    assert run(["doctor", *shlex.split(result["command"])[2:]]) == 0
+    assert "acc=x y -z" in result["command"] and "all=y z x" in result["command"]
+
+
+def test_sheets(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("matplotlib")
+    assert run(["doctor", "glove.csv", "right.csv", "--sheet", "both.html"]) == 1
+    page = (folder / "both.html").read_text()
+    assert page.count("<svg") == 8 and "gyr=y x z" in page and "http-equiv" in page
+    assert run(["doctor", "right.csv", "--sheet", "one.png"]) == 0
+    assert (folder / "one.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "says"),
+    [
+        (["doctor", "absent.csv"], 1, "absent.csv"),
+        (["doctor", "right.csv", "glove.csv", "--save-profile", "x.toml"], 2, "one recording"),
+        (["doctor", "right.csv", "--save-profile", "x.txt"], 2, r"\.toml"),
+        (["doctor", "right.csv", "--sheet", "x.txt"], 2, r"\.html"),
+        (["doctor", "right.csv", "glove.csv", "--sheet", "x.png"], 2, r"\.html holds"),
+        (["doctor", "right.csv", "--sheet", "no.csv/x.html"], 1, "file, not a folder"),
+        (["doctor", "right.csv", "--hemisphere", "east"], 2, "hemisphere"),
+        (["estimate", "right.csv", "--remap", "acc=x x z"], 2, "--remap"),
+        (["estimate", "right.csv", "--remap", "baro=x y z"], 2, "--remap"),
+        (["estimate", "right.csv", "--remap", "-x y z"], 2, "."),
+        (["estimate", "right.csv", "--delay", "gyr=0.1"], 2, "--delay"),
+        (["estimate", "right.csv", "--delay", "mag=late"], 2, "--delay"),
+        (["estimate", "right.csv", "--profile", "absent.toml"], 2, "cannot be read"),
+        (["estimate", "right.csv", "--profile", "no.csv"], 2, "no TOML"),
+        (["estimate", "right.csv", "--profile", "odd.toml"], 2, "not understood"),
+    ],
+)
+def test_mistakes(folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], code: int, says: str) -> None:
+    (folder / "no.csv").write_text("time,\x01 =")
+    (folder / "odd.toml").write_text("[unit]\ngyr = 'deg/s'\n")
+    assert run(arguments) == code
+    lines = capsys.readouterr().err.strip().splitlines()
+    assert len(lines) == 1 and re.search(says, lines[0]), lines
