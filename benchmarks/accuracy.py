@@ -1,6 +1,6 @@
 """How accurate poise's methods are on the BROAD trials, compared with the table that is stored.
 
-    python benchmarks/accuracy.py [--peers] [--write] [--json | --markdown] [--jobs N]
+    python benchmarks/accuracy.py [--peers] [--write] [--json | --markdown] [--figure FILE] [--jobs N]
 
 Every method with its defaults, nothing aligned or tuned per trial; RMSE in degrees over the rows that count, by trial and by
 the benchmark's groups of trials. A method whose heading no sensor gives is judged by its inclination. Ends with 1 where a
@@ -17,15 +17,31 @@ import sys
 from collections.abc import Collection, Iterable, Mapping
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 import scores as scoring
-from poise import METHODS, Attitude, PoiseError, Recording, estimate, read
+from accuracy_figure import draw
+from poise import METHODS, Attitude, PoiseError, Recording, SelfCalibrating, estimate, read, smooth
 from poise.peers import PEERS, Peer, installed
 from scores import ERRORS, Score, Scores, compare, document, facts_of, groups, halves, judged_by, load, means, score
 from tables import Cell, heading, table
+
+
+class Offline(NamedTuple):
+    """`smooth`, as a contender."""
+
+    declination: float = 0.0
+
+    def attitude(self, recording: Recording) -> Attitude:
+        return smooth(recording, SelfCalibrating(declination=self.declination))
+
+
+def own() -> dict[str, Any]:
+    """poise's methods with their defaults, the flagship offline too."""
+    methods = {name: method() for name, method in METHODS.items()}
+    return {"self-calibrating": methods.pop("self-calibrating"), "self-calibrating-offline": Offline()} | methods
 
 
 def data_folder() -> Path:
@@ -41,7 +57,7 @@ def trial_files() -> list[Path]:
 
 def run(contender: Any, recording: Recording) -> Attitude:
     """The attitude that a method of poise, or another package's filter, makes."""
-    return contender.attitude(recording) if isinstance(contender, Peer) else estimate(contender, recording)
+    return contender.attitude(recording) if isinstance(contender, Peer | Offline) else estimate(contender, recording)
 
 
 def has_heading(contender: Any) -> bool:
@@ -162,16 +178,19 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"no BROAD trials in {data_folder()}; POISE_DATA says where they are", file=sys.stderr)
         return int(bool(os.environ.get("CI")))
     peers = _peers() if options.peers else {}
-    scores = measure(files, {name: method() for name, method in METHODS.items()} | peers, options.jobs)
-    own, foreign = ({name: scores[name] for name in group} for group in (METHODS, peers))
+    methods = own()
+    scores = measure(files, methods | peers, options.jobs)
+    ours, foreign = ({name: scores[name] for name in group} for group in (methods, peers))
     facts = {name: {"version": installed(PEERS[name].package), "settings": PEERS[name].settings} for name in foreign}
     if options.json:
         print(json.dumps(document(scores, facts), indent=1, ensure_ascii=False))
     else:
         print(report(scores, options.markdown))
+    if options.figure:
+        draw(scores, options.figure)
     if not options.write:
-        return check(own, foreign)
-    store("accuracy.json", document(own))
+        return check(ours, foreign)
+    store("accuracy.json", document(ours))
     if foreign:
         store("peers.json", document(foreign, facts))
     return 0
@@ -181,6 +200,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", 1)[0])
     parser.add_argument("--peers", action="store_true", help="other packages too")
     parser.add_argument("--write", action="store_true", help="store the figures, compare nothing")
+    parser.add_argument("--figure", type=Path, help="draw the errors by trial and group (.png, .svg, .pdf)")
     parser.add_argument("--jobs", type=int, default=min(2, os.cpu_count() or 1), help="trials at a time (default 2)")
     form = parser.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="print JSON")
