@@ -2,8 +2,20 @@
 
 from poise.formats.assemble import SensorFacts, Sniffed
 from poise.formats.attitudes import read_attitude, wrote_attitude
+from poise.formats.chunks import Chunks
 from poise.formats.limits import Limits
-from poise.formats.reading import read, sniff
+from poise.formats.reading import read, read_chunks, sniff
 from poise.formats.writing import write
 
-__all__ = ["Limits", "SensorFacts", "Sniffed", "read", "read_attitude", "sniff", "write", "wrote_attitude"]
+__all__ = [
+    "Chunks",
+    "Limits",
+    "SensorFacts",
+    "Sniffed",
+    "read",
+    "read_attitude",
+    "read_chunks",
+    "sniff",
+    "write",
+    "wrote_attitude",
+]

@@ -16,10 +16,12 @@ from poise.data import arrow
 from poise.errors import FormatError
 from poise.formats import names, text_head
 from poise.formats.limits import Limits, Options
-from poise.formats.table import KIND, Blocks, Floats, Table
+from poise.formats.table import KIND, STRETCH, STRETCHES, Block, Columns, Table, joined
 from poise.formats.text_head import Dialect
 
 _BLOCK = 4 * 2**20  # bytes
+_SMALL = 32 * 2**20  # bytes: a file of which every row is looked at before any is used
+_STRETCH_BYTES = 16 * 2**20  # bytes that a stretch of the sample may take, should its lines be long
 _COMMENT = re.compile(rb"(?m)^[ \t]*(?:#|//|%)[^\n]*")
 _MARKS = (b"#", b"/", b"%")  # single bytes are found fastest
 
@@ -29,63 +31,132 @@ def read(path: Path, options: Options) -> Table:
     where = str(path)
     with path.open("rb") as file:
         head = file.read(4 * options.limits.line)
-        whole = not file.read(1)
-        dialect = text_head.inspect(where, head, whole, options)
-        if dialect.facts.get(KIND) == "attitude":
-            raise FormatError(f"{where}: an attitude that poise wrote, not a recording; read it with read_attitude")
-        header = names.renamed(where, dialect.names, options.columns, len(dialect.first))
-        layout = names.choose(where, header, timed=options.rate is not None)
-        columns = {key: column.index for key, column in layout.columns.items()}
-        values, notes, doubts = parse(where, file, dialect, columns, options.limits)
-    said = [*dialect.notes, *layout.notes, *notes]
-    calendar = dialect.iso(columns.get("time"))
-    return Table(dialect.sentence, layout, values, dialect.facts, None, "s" if calendar else "", said, doubts)
+        dialect = text_head.inspect(where, head, not file.read(1), options)
+    if dialect.facts.get(KIND) == "attitude":
+        raise FormatError(f"{where}: an attitude that poise wrote, not a recording; read it with read_attitude")
+    header = names.renamed(where, dialect.names, options.columns, len(dialect.first))
+    layout = names.choose(where, header, timed=options.rate is not None)
+    columns = {key: column.index for key, column in layout.columns.items()}
+    rows = TextRows(where, path, dialect, columns, options.limits)
+    rows.notes += [*dialect.notes, *layout.notes]
+    calendar = "s" if dialect.iso(columns.get("time")) else ""
+    return Table(dialect.sentence, layout, rows, dialect.facts, None, calendar, rows.notes, rows.doubts)
 
 
-def parse(
-    where: str, file: BinaryIO, dialect: Dialect, columns: dict[str, int], limits: Limits
-) -> tuple[dict[str, Floats], list[str], list[str]]:
-    """The named *columns* (key to index) of all rows as float64, with notes and doubts about the end of the file."""
-    parser = _Parser(where, dialect, columns)
-    blocks = Blocks(len(columns))
-    notes: list[str] = []
-    doubts: list[str] = []
-    for line, block, ended in _lines(where, file, dialect, limits):
-        if not ended:
-            if parser.is_cut(block):
-                notes.append(f"line {line}: the last row is cut short and left out")
+class TextRows:
+    """The rows of a text file; *columns* is key to column number. Its position is a byte, a line and lines to skip.
+
+    *notes* and *doubts* grow when the end of the file is read. Raises :class:`FormatError` with line, column and
+    reason where a row is not right.
+    """
+
+    def __init__(self, where: str, path: Path, dialect: Dialect, columns: dict[str, int], limits: Limits) -> None:
+        self._where, self._path, self._dialect, self._limits = where, path, dialect, limits
+        self._parser = _Parser(where, dialect, columns)
+        self._kept: list[Block] | None = None  # a small file is parsed once, for sample and rows
+        self.notes: list[str] = []
+        self.doubts: list[str] = []
+
+    def sample(self) -> Columns:
+        """Every row of a file up to 32 MiB, else evenly spread stretches of it."""
+        size = self._path.stat().st_size
+        if size <= _SMALL:
+            self._kept = list(self.blocks())
+            return joined([block.columns.copy() for block in self._kept])
+        parts = []
+        try:
+            for i in range(STRETCHES):
+                parts += self._stretch(self._line_after(i * (size // STRETCHES)) if i else None)
+        except FormatError:
+            for _ in self.blocks():  # which says the line
+                pass
+        if not parts:
+            raise FormatError(f"{self._where}: no whole row of numbers found; expected one sample a line")
+        return joined(parts)
+
+    def blocks(self, position: tuple[int, ...] | None = None) -> Iterator[Block]:
+        """All rows, or those from a block on."""
+        if self._kept is not None:
+            yield from (block for block in self._kept if position is None or block.position >= tuple(position))
+            return
+        found = position is not None
+        for at, columns, ended in self._parsed(position):
+            if columns is None:
+                self.notes.append(f"line {at[1]}: the last row is cut short and left out")
                 continue
-            doubts.append("the file does not end with a line break: its last row may be cut short")
-        rows = parser.rows(line, block)
-        if rows is not None:
-            blocks.add(rows)
-            limits.check(where, "rows", blocks.rows)
-    if not blocks.rows:
-        raise FormatError(f"{where}: no whole row of numbers found; expected one sample a line")
-    return dict(zip(columns, blocks.columns(), strict=True)), notes, doubts
+            if not ended:
+                self.doubts.append("the file does not end with a line break: its last row may be cut short")
+            found = True
+            yield Block(at, columns)
+        if not found:
+            raise FormatError(f"{self._where}: no whole row of numbers found; expected one sample a line")
+
+    def _parsed(self, position: tuple[int, ...] | None) -> Iterator[tuple[tuple[int, ...], Columns | None, bool]]:
+        """Blocks with rows, None for a last row that is cut short, and whether a line break ends them."""
+        with self._path.open("rb") as file:
+            for at, line, block, ended in _lines(self._where, file, self._dialect, self._limits, position):
+                if not ended and self._parser.is_cut(block):
+                    yield at, None, ended
+                elif (rows := self._parser.rows(line, block)) is not None:
+                    yield at, rows, ended
+
+    def _stretch(self, position: tuple[int, ...] | None) -> list[Columns]:
+        parts: list[Columns] = []
+        missing = STRETCH
+        for at, columns, _ in self._parsed(position):
+            if columns is None or missing <= 0 or at[0] - (position or (0,))[0] > _STRETCH_BYTES:
+                break
+            parts.append({key: values[:missing] for key, values in columns.items()})
+            missing -= len(next(iter(columns.values())))
+        return parts
+
+    def _line_after(self, offset: int) -> tuple[int, ...]:
+        """The position of the first line that begins behind *offset*."""
+        wide = 1 if self._dialect.encoding == "utf-8" else 2
+        offset += (offset - self._dialect.bom) % wide
+        feed, back = (mark.encode(self._dialect.encoding) for mark in "\n\r")
+        with self._path.open("rb") as file:
+            file.seek(offset)
+            window = file.read(wide * (self._limits.line + 4))
+        at = 0
+        while at < len(window) and window[at : at + wide] not in (feed, back):
+            at += wide
+        at += 2 * wide if window[at : at + 2 * wide] == back + feed else wide
+        return offset + at, 0, 0
 
 
-def _lines(where: str, file: BinaryIO, dialect: Dialect, limits: Limits) -> Iterator[tuple[int, bytes, bool]]:
-    """Blocks of whole lines as UTF-8 with \\n, each with its first line's number; last what no line break ends."""
-    file.seek(dialect.bom)
+def _lines(
+    where: str, file: BinaryIO, dialect: Dialect, limits: Limits, position: tuple[int, ...] | None = None
+) -> Iterator[tuple[tuple[int, ...], int, bytes, bool]]:
+    """Blocks of whole lines as UTF-8 with \\n: position, first line's number, lines, whether a line break ends them."""
+    offset, line, skip = position or (dialect.bom, 1, dialect.skip)
+    file.seek(offset)
     decoder = codecs.getincrementaldecoder(dialect.encoding)() if dialect.encoding != "utf-8" else None
-    line, rest, skip = 1, b"", dialect.skip
+    rest = b""
     while raw := file.read(_BLOCK):
+        at = (offset, line, skip)
         block = rest + (_transcode(where, line, decoder, raw) if decoder else raw)
         held = b"\r" if block.endswith(b"\r") else b""  # perhaps half of \r\n
         if b"\r" in block:
             block = block[: len(block) - len(held)].replace(b"\r\n", b"\n").replace(b"\r", b"\n")
         cut = block.rfind(b"\n") + 1
         rest, block = block[cut:] + held, block[:cut]
+        offset = file.tell() - _pending(decoder) - len(rest.decode().encode(dialect.encoding) if decoder else rest)
         count = _check_lines(where, line, block, rest, limits)
         if block:
             for first, part in _without(block, line, skip):
-                yield first, part, True
+                yield at, first, part, True
             line, skip = line + count, max(0, skip - count)
+    at = (offset, line, skip)
     if rest.endswith(b"\r"):
-        yield line, rest[:-1] + b"\n", True
+        yield at, line, rest[:-1] + b"\n", True
     elif rest.strip() and not _COMMENT.match(rest):
-        yield line, rest, False
+        yield at, line, rest, False
+
+
+def _pending(decoder: Any) -> int:
+    """Bytes that *decoder* has read and not yet given."""
+    return len(decoder.getstate()[0]) if decoder else 0
 
 
 def _without(block: bytes, line: int, skip: int) -> Iterator[tuple[int, bytes]]:
@@ -131,7 +202,7 @@ class _Parser:
     dialect: Dialect
     columns: dict[str, int]
 
-    def rows(self, line: int, block: bytes) -> list[Floats] | None:
+    def rows(self, line: int, block: bytes) -> Columns | None:
         """The wanted columns of one block; None where it holds no row."""
         if any(mark in block for mark in _MARKS):
             block = _COMMENT.sub(b"", block)
@@ -150,7 +221,7 @@ class _Parser:
             expected -= len(re.findall(rb"(?m)^\n", block))
             if table.num_rows != expected:
                 self._refuse(line, block, f"{expected} lines gave {table.num_rows} rows")
-        return [arrow.floats(table.column(f"c{index}")) for index in self.columns.values()]
+        return {key: arrow.floats(table.column(f"c{index}")) for key, index in self.columns.items()}
 
     def _parse(self, block: bytes) -> Any:
         import pyarrow
