@@ -56,7 +56,7 @@ class Assembler:
     def __init__(self, table: Table, made: Decisions, name: str, source: str, digest: str) -> None:
         self._table, self._made = table, made
         none = np.empty((0, 3))
-        self._empty = Recording(
+        self.empty = Recording(
             np.empty(0), none, none, none, gravity=made.gravity, name=name, source=source, source_hash=digest
         )
         self._fresh = {sensor: Fresh(usual) for sensor, usual in made.held.items()}
@@ -85,7 +85,7 @@ class Assembler:
                 quat = np.column_stack([columns[f"truth_{name}"] for name in QUAT_NAMES])
                 values["truth"] = self._truth(values["time"], quat)
             self._seen["rows"] += count
-            return self._empty.holding(**values)
+            return self.empty.holding(**values)
 
     def state(self) -> dict[str, Any]:
         """What :meth:`restore` needs."""
@@ -105,7 +105,7 @@ class Assembler:
         """What was recognised, counted over the rows so far."""
         seen, made = self._seen, self._made
         return Sniffed(
-            path=self._empty.source,
+            path=self.empty.source,
             format=self._table.format,
             rows=self.rows,
             rate_hz=1.0 / made.step,

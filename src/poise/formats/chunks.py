@@ -42,17 +42,17 @@ class Chunks:
         self.options, self.rows = options, rows
         self._table = table
         with named(where):
-            self._decided = decide(where, table, options)
-            self._assembler = Assembler(table, self._decided, path.stem, where, digest)
+            decided = decide(where, table, options)
+            self._assembler = Assembler(table, decided, path.stem, where, digest)
         self._waiting: deque[list[Any]] = deque()  # blocks with rows to hand out: position, columns, rows handed out
         self._at: tuple[int, ...] | None = None
         self._skip = 0
         self._recordings = self._made()
 
     @property
-    def gravity(self) -> float:
-        """m/s², of every chunk."""
-        return self._decided.gravity
+    def empty(self) -> Recording:
+        """A recording like the chunks, without rows."""
+        return self._assembler.empty
 
     @property
     def done(self) -> int:
