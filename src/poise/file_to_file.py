@@ -79,8 +79,9 @@ def estimate_file(
     target = Path(target)
     kind = format or writing.SUFFIXES.get(target.suffix.lower(), "")
     if kind not in KINDS:
-        found = kind or target.suffix or "no extension"
-        raise FormatError(f"{target}: {found} cannot be written in chunks; expected {', '.join(KINDS)}")
+        raise FormatError(
+            f"{target}: {kind or target.suffix or 'no extension'} cannot be written in chunks; expected {', '.join(KINDS)}"
+        )
     run = _Run(chunks, Stream(at_gravity(method, chunks.empty.gravity), **options), dict(accounts or {}))
     shape = _Shape(kind, frame, remap, heading_reference)
     identity = _identity(run, shape, options)

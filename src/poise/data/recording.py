@@ -128,7 +128,8 @@ class Recording:
     @classmethod
     def joined(cls, parts: Iterable[Recording]) -> Recording:
         """The rows of consecutive *parts* of one recording, at least one, as one recording."""
-        first, rows = None, {name: [] for name in (*_ROWS, "moving", "truth")}  # type: dict[str, list[Any]]
+        first: Recording | None = None
+        rows: dict[str, list[Any]] = {name: [] for name in (*_ROWS, "moving", "truth")}
         for part in parts:
             first = first or part
             for name, found in rows.items():

@@ -178,8 +178,9 @@ class Assembler:
         seen, facts = self._seen, self._table.facts
         frame: Any = facts.get("poise.truth_frame", "enu")
         heading: Any = facts.get("poise.truth_heading_reference", "arbitrary")
-        last = [np.nan] * 4 if seen["truth"] is None else seen["truth"]
-        led = arrays.normalize(np.vstack([last, np.where(np.isfinite(quat).all(axis=1)[:, None], quat, np.nan)]))
+        last = np.array([np.nan] * 4 if seen["truth"] is None else seen["truth"])
+        complete = np.asarray(np.isfinite(quat).all(axis=1))
+        led = arrays.normalize(np.vstack([last, np.where(complete[:, None], quat, np.nan)]))
         known = np.flatnonzero(np.isfinite(led).all(axis=1))
         truth = Attitude.of(time, quat, frame=frame, heading_reference=heading)
         steady = arrays.continuous(led) * (-1.0 if seen["turned"] else 1.0)

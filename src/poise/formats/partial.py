@@ -50,7 +50,8 @@ class Partial:
             os.fsync(file.fileno())
         text = json.dumps({"identity": identity, "lengths": [self.rows.tell(), self.index.tell()], "facts": facts})
         made = io.BytesIO()
-        np.savez(made, text=np.array(text), **arrays)
+        named: dict[str, Any] = {"text": np.array(text), **arrays}
+        np.savez(made, **named)
         beside = self._folder / f"{_STATE}.new"
         with beside.open("wb") as file:
             file.write(made.getbuffer())
