@@ -74,7 +74,11 @@ def written() -> dict[str, Case]:
         "CR": plain.replace("\n", "\r"),
         "CR LF and LF mixed": plain.replace("\n", "\r\n", 100),
         "UTF-8 with byte order mark": "\ufeff" + plain,
-        "comments above, between and below": "# a\n// b\n" + "".join(middle[0]) + "% c\n" + "".join(middle[1]) + "# d\n",
+        "comments above, between and below": "# a\n// b\n"
+        + "".join(middle[0])
+        + "% c\n"
+        + "".join(middle[1])
+        + "# d\n",
         "empty lines": plain.replace("\n", "\n\n", 50),
         "delimiter behind the last cell": plain.replace("\n", ",\n"),
         "title lines above the names": "Logger 3000\nmade today\n" + plain,
@@ -96,8 +100,8 @@ def written() -> dict[str, Case]:
         "comments only": Case(b"# nothing\n# here\n", "no rows of numbers"),
         "nothing": Case(b"", "the file is empty"),
         "prose": Case(b"It was a dark night.\nThe storm raged.\n", "no rows of numbers"),
-        "wrong delimiter told": Case(plain.encode(), "line|delimiter", {"delimiter": ";"}),
-        "wrong decimal sign told": Case(plain.encode(), "line|decimal", {"decimal": ","}),
+        "wrong delimiter told": Case(plain.encode(), "no rows of numbers with --delimiter ';'", {"delimiter": ";"}),
+        "wrong decimal sign told": Case(plain.encode(), "no rows of numbers with --decimal ','", {"decimal": ","}),
         "decimal comma, commas between": Case(plain.replace(".", ",").encode(), "line|delimiter|decimal"),
         "decimal comma from line 201 on": Case(
             between(lines[200].replace(",", ";").replace(".", ",")), "line 201: 1 cells|line 201"
@@ -110,7 +114,7 @@ def written() -> dict[str, Case]:
         "two logs, other columns": Case((plain + "a,b,c\n1,2,3\n").encode(), f"{at}: .*(second log|3 cells)"),
         "two logs, stamps begin again": Case((plain + body).encode(), said="1 stamps do not rise"),
         "a cut last row": Case(plain.encode()[:-70], said="the last row is cut short and left out", left_out=1),
-        "a last row cut in its last cell": Case(plain.encode()[:-3], said="may be cut short", left_out=1),
+        "a last row cut in its last cell": Case(plain.encode()[:-3], said="the last row is cut short and left out", left_out=1),
         "a last row without line break": Case(plain.encode()[:-1], said="may be cut short"),
         "a quote that is never closed": Case(between('0.1,"1,2,3,4,5,6,7,8,9\n'), "line 201"),
         "thousands separators": Case(between(lines[200].replace("9.", "9'", 1)), "line 201, column"),
@@ -127,9 +131,10 @@ def written() -> dict[str, Case]:
 
 def whole(folder: Path) -> dict[str, Path]:
     """One good file of every kind that can be written here."""
-    import poise
     from pyarrow import csv, parquet
     from scipy.io import savemat
+
+    import poise
 
     rows = samples()
     recording = poise.Recording(rows[:, 0], rows[:, 1:4], rows[:, 4:7], rows[:, 7:])
@@ -304,7 +309,7 @@ def _parquet_bomb() -> bytes:
     from pyarrow import parquet
 
     zeros = pyarrow.array(np.zeros(1_000_000))
-    table = pyarrow.table({name: zeros for name in ("time", "gx", "gy", "gz", "ax", "ay", "az")})
+    table = pyarrow.table(dict.fromkeys(("time", "gx", "gy", "gz", "ax", "ay", "az"), zeros))
     made = io.BytesIO()
     with parquet.ParquetWriter(made, table.schema, compression="zstd") as writer:
         for _ in range(40):

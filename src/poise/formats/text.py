@@ -6,7 +6,7 @@ import codecs
 import io
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -21,6 +21,7 @@ from poise.formats.text_head import Dialect
 
 _BLOCK = 4 * 2**20  # bytes
 _SMALL = 32 * 2**20  # bytes: a file of which every row is looked at before any is used
+_ABOVE = 20  # lines that a cut last one is compared with
 _STRETCH_BYTES = 16 * 2**20  # bytes that a stretch of the sample may take, should its lines be long
 _COMMENT = re.compile(rb"(?m)^[ \t]*(?:#|//|%)[^\n]*")
 _MARKS = (b"#", b"/", b"%")  # single bytes are found fastest
@@ -201,6 +202,8 @@ class _Parser:
     where: str
     dialect: Dialect
     columns: dict[str, int]
+    _above: list[bytes] = field(default_factory=list)
+    """the last lines that were parsed"""
 
     def rows(self, line: int, block: bytes) -> Columns | None:
         """The wanted columns of one block; None where it holds no row."""
@@ -212,6 +215,7 @@ class _Parser:
             return None
         import pyarrow
 
+        self._above = block.rsplit(b"\n", _ABOVE + 2)[1:]
         try:
             table = self._parse(block)
         except pyarrow.ArrowException as problem:
@@ -246,12 +250,24 @@ class _Parser:
         )
 
     def is_cut(self, line: bytes) -> bool:
-        """Whether the last line, which no line break ends, is the beginning of a row only."""
-        cells = text_head.split(line.decode("utf-8", "replace"), self.dialect.delimiter)
-        if len(cells) < len(self.dialect.first):
-            return True
+        """Whether the last line, which no line break ends, is the beginning of a row only.
+
+        So it is where cells are missing, the last one is no number, or it has fewer decimals than each of those above.
+        """
+        cells = self._cells(line)
         last = len(self.dialect.first) - 1
-        return len(cells) == last + 1 and last in self.columns.values() and not self._is_value(last, cells[last])
+        if len(cells) != last + 1 or last not in self.columns.values():
+            return len(cells) <= last
+        if not self._is_value(last, cells[last]):
+            return True
+        above = [found[last] for raw in self._above if len(found := self._cells(raw)) == last + 1]
+        return len(above) >= _ABOVE // 2 and self._decimals(cells[last]) < min(map(self._decimals, above))
+
+    def _cells(self, line: bytes) -> list[str]:
+        return text_head.split(line.decode("utf-8", "replace"), self.dialect.delimiter)
+
+    def _decimals(self, cell: str) -> int:
+        return len(cell.partition(self.dialect.decimal)[2])
 
     def _is_value(self, index: int, cell: str) -> bool:
         if cell in text_head.MISSING:
