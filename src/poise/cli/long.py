@@ -15,6 +15,7 @@ from poise.data.recording import Recording
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+ROWS = 65_536  # of a chunk, and of a row group in Parquet
 _SHOWN = 65_536  # rows of a picture, at least half as many
 
 
@@ -45,7 +46,7 @@ def estimate(
     from poise.file_to_file import Account, estimate_file
     from poise.formats import read_chunks
 
-    chunks = read_chunks(file, **reading.as_arguments())
+    chunks = read_chunks(file, ROWS, **reading.as_arguments())
     errors, shown = ErrorSums(), Thinned(_SHOWN)
     accounts: dict[str, Account] = {"errors": errors} | ({"shown": shown} if picture else {})
     written = estimate_file(

@@ -34,7 +34,8 @@ def opened(where: str, path: Path) -> Any:
     from pyarrow import parquet
 
     try:
-        return parquet.ParquetFile(path, page_checksum_verification=True)
+        # In pieces: a row group may be as long as the file.
+        return parquet.ParquetFile(path, page_checksum_verification=True, pre_buffer=False, buffer_size=2**20)
     except (pyarrow.ArrowException, OSError, ValueError) as problem:
         raise FormatError(f"{where}: damaged Parquet file ({_short(problem)}); copy or export it again") from None
 
