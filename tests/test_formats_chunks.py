@@ -116,8 +116,13 @@ def test_another_process_goes_on_anywhere(tmp_path: Path, kind: str) -> None:
 @pytest.mark.usefixtures("small")
 def test_a_long_file_is_decided_from_stretches_of_it(tmp_path: Path) -> None:
     path = foreign(tmp_path, made(), "csv")
-    rows = text.read(path, poise.formats.limits.Options()).rows
-    assert len(rows.sample()["time"]) == 200 * table.STRETCHES < ROWS
+    chunks = poise.read_chunks(path)
+    sample, whole = chunks.sample(), poise.read(path)
+    assert len(sample) == 200 * table.STRETCHES < ROWS
+    assert np.isin(sample.gyr[:, 0], whole.gyr[:, 0]).all()
+    np.testing.assert_array_equal(sample.gyr[:200], whole.gyr[:200])
+    assert sample.time[-1] > whole.time[len(whole) * 3 // 4]
+    same(list(chunks), whole)  # looking at the sample takes nothing away
 
 
 @pytest.mark.usefixtures("small")

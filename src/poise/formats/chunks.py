@@ -42,8 +42,8 @@ class Chunks:
         self.options, self.rows = options, rows
         self._table = table
         with named(where):
-            decided = decide(where, table, options)
-            self._assembler = Assembler(table, decided, path.stem, where, digest)
+            self._decided = decide(where, table, options)
+            self._assembler = self._fresh()
         self._waiting: deque[list[Any]] = deque()  # blocks with rows to hand out: position, columns, rows handed out
         self._at: tuple[int, ...] | None = None
         self._skip = 0
@@ -69,6 +69,11 @@ class Chunks:
         """What was recognised, counted over the chunks so far; the rate is that of the sample."""
         return self._assembler.sniffed()
 
+    def sample(self) -> Recording:
+        """Evenly spread stretches of the file, one behind the other, and all of a short file: what was decided from."""
+        with named(self.source):
+            return self._fresh().recording(self._table.rows.sample())
+
     def __iter__(self) -> Iterator[Recording]:
         return self._recordings
 
@@ -82,6 +87,9 @@ class Chunks:
         kept = json.loads(state)
         self._at, self._skip = (None if kept["at"] is None else tuple(kept["at"])), kept["skip"]
         self._assembler.restore(kept["assembler"])
+
+    def _fresh(self) -> Assembler:
+        return Assembler(self._table, self._decided, self.name, self.source, self.source_hash)
 
     def _made(self) -> Iterator[Recording]:
         with named(self.source):
