@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from poise.data.attitude import Attitude, HeadingReference
 from poise.data.recording import Recording
-from poise.errors import FormatError
+from poise.errors import FormatError, PoiseError
 from poise.estimators.engine import Stream, at_gravity, feed
 from poise.formats import writing
 from poise.formats.chunks import Chunks
@@ -102,7 +102,7 @@ def estimate_file(
                     saved = time.monotonic()
                 if progress is not None:
                     progress(run.counts["rows"])
-        except FormatError:
+        except PoiseError:
             place.discard()  # the input is not right; once it is, it will be another file
             raise
         if run.counts["rows"] > resumed:

@@ -92,19 +92,21 @@ def partial(target: Path) -> Iterator[Partial]:
     stays for the next time.
     """
     name = os.fsencode(target.name)[:200].decode("utf-8", "ignore")
-    folder = target.with_name(f"{name}.partial")
+    folder, owned = target.with_name(f"{name}.partial"), False
     try:
         folder.mkdir(exist_ok=True)
         with (folder / _LOCK).open("ab") as lock:
             _lock(target, lock)
+            owned = True
             with (folder / "rows").open("ab+") as rows, (folder / "index").open("ab+") as index:
                 yield Partial(folder, target, rows, index)
     except OSError as problem:
         kept = f"; what is written so far stays in {folder.name}, the same command goes on from it"
         said = kept if (folder / _STATE).exists() else ""
-        if not said:
-            shutil.rmtree(folder, ignore_errors=True)
         raise FormatError(f"{target}: cannot be written: {problem.strerror or problem}{said}") from None
+    finally:
+        if owned and not (folder / _STATE).exists():
+            shutil.rmtree(folder, ignore_errors=True)  # nothing to go on from
 
 
 def _lock(target: Path, lock: BinaryIO) -> None:
