@@ -76,11 +76,14 @@ class Partial:
             self.rows.write(tail)
             self.rows.flush()
             os.fsync(self.rows.fileno())
+        self.rows.close()
         whole.replace(self._target)
         self.discard()
 
     def discard(self) -> None:
         """Forget all that was written."""
+        self.rows.close()
+        self.index.close()
         shutil.rmtree(self._folder, ignore_errors=True)
 
 

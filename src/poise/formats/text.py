@@ -3,28 +3,22 @@
 from __future__ import annotations
 
 import codecs
-import io
-import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy as np
 
-from poise.data import arrow
 from poise.errors import FormatError
 from poise.formats import names, text_head
 from poise.formats.limits import Limits, Options
 from poise.formats.table import KIND, STRETCH, STRETCHES, Block, Columns, Table, joined
 from poise.formats.text_head import Dialect
+from poise.formats.text_parser import COMMENT, Parser
 
 _BLOCK = 4 * 2**20  # bytes
 _SMALL = 32 * 2**20  # bytes: a file of which every row is looked at before any is used
-_ABOVE = 20  # lines that a cut last one is compared with
 _STRETCH_BYTES = 16 * 2**20  # bytes that a stretch of the sample may take, should its lines be long
-_COMMENT = re.compile(rb"(?m)^[ \t]*(?:#|//|%)[^\n]*")
-_MARKS = (b"#", b"/", b"%")  # single bytes are found fastest
 
 
 def read(path: Path, options: Options) -> Table:
@@ -53,7 +47,7 @@ class TextRows:
 
     def __init__(self, where: str, path: Path, dialect: Dialect, columns: dict[str, int], limits: Limits) -> None:
         self._where, self._path, self._dialect, self._limits = where, path, dialect, limits
-        self._parser = _Parser(where, dialect, columns)
+        self._parser = Parser(where, dialect, columns)
         self._kept: list[Block] | None = None  # a small file is parsed once, for sample and rows
         self.notes: list[str] = []
         self.doubts: list[str] = []
@@ -69,8 +63,10 @@ class TextRows:
             for i in range(STRETCHES):
                 parts += self._stretch(self._line_after(i * (size // STRETCHES)) if i else None)
         except FormatError:
+            said = len(self.notes), len(self.doubts)
             for _ in self.blocks():  # which says the line
                 pass
+            del self.notes[said[0] :], self.doubts[said[1] :]
         if not parts:
             raise FormatError(f"{self._where}: no whole row of numbers found; expected one sample a line")
         return joined(parts)
@@ -151,7 +147,7 @@ def _lines(
     at = (offset, line, skip)
     if rest.endswith(b"\r"):
         yield at, line, rest[:-1] + b"\n", True
-    elif rest.strip() and not _COMMENT.match(rest):
+    elif rest.strip() and not COMMENT.match(rest):
         yield at, line, rest, False
 
 
@@ -193,118 +189,3 @@ def _check_lines(where: str, line: int, block: bytes, rest: bytes, limits: Limit
             "Cut it before this line"
         )
     return len(ends)
-
-
-@dataclass
-class _Parser:
-    """Turns blocks of lines into columns of float64 for one file."""
-
-    where: str
-    dialect: Dialect
-    columns: dict[str, int]
-    _above: list[bytes] = field(default_factory=list)
-    """the last lines that were parsed"""
-
-    def rows(self, line: int, block: bytes) -> Columns | None:
-        """The wanted columns of one block; None where it holds no row."""
-        if any(mark in block for mark in _MARKS):
-            block = _COMMENT.sub(b"", block)
-        if self.dialect.delimiter == " ":
-            block = re.sub(rb"(?m)^ | $", b"", re.sub(rb"[ \t]+", b" ", block))
-        if not block.strip():
-            return None
-        import pyarrow
-
-        self._above = block.rsplit(b"\n", _ABOVE + 2)[1:]
-        try:
-            table = self._parse(block)
-        except pyarrow.ArrowException as problem:
-            self._refuse(line, block, str(problem))
-        expected = block.count(b"\n") + (not block.endswith(b"\n"))
-        if table.num_rows != expected:
-            expected -= len(re.findall(rb"(?m)^\n", block))
-            if table.num_rows != expected:
-                self._refuse(line, block, f"{expected} lines gave {table.num_rows} rows")
-        return {key: arrow.floats(table.column(f"c{index}")) for key, index in self.columns.items()}
-
-    def _parse(self, block: bytes) -> Any:
-        import pyarrow
-        from pyarrow import csv
-
-        width = [f"c{i}" for i in range(len(self.dialect.first))]
-        types: dict[str, Any] = {f"c{index}": pyarrow.float64() for index in self.columns.values()}
-        time = self.columns.get("time")
-        if time is not None and self.dialect.iso(time):
-            zoned = not re.search(r"\d$", cell := self.dialect.first[time]) or bool(re.search(r":\d\d.*[+-]\d\d", cell))
-            types[f"c{time}"] = pyarrow.timestamp("ns", "UTC" if zoned else None)
-        return csv.read_csv(
-            io.BytesIO(block),
-            csv.ReadOptions(use_threads=False, block_size=max(len(block) + 1, 1024), column_names=width),
-            csv.ParseOptions(delimiter=self.dialect.delimiter, quote_char='"' if b'"' in block else False),
-            csv.ConvertOptions(
-                column_types=types,
-                include_columns=list(types),
-                null_values=list(text_head.MISSING),
-                decimal_point=self.dialect.decimal,
-            ),
-        )
-
-    def is_cut(self, line: bytes) -> bool:
-        """Whether the last line, which no line break ends, is the beginning of a row only.
-
-        So it is where cells are missing, the last one is no number, or it has fewer decimals than each of those above.
-        """
-        cells = self._cells(line)
-        last = len(self.dialect.first) - 1
-        if len(cells) != last + 1 or last not in self.columns.values():
-            return len(cells) <= last
-        if not self._is_value(last, cells[last]):
-            return True
-        above = [found[last] for raw in self._above if len(found := self._cells(raw)) == last + 1]
-        return len(above) >= _ABOVE // 2 and self._decimals(cells[last]) < min(map(self._decimals, above))
-
-    def _cells(self, line: bytes) -> list[str]:
-        return text_head.split(line.decode("utf-8", "replace"), self.dialect.delimiter)
-
-    def _decimals(self, cell: str) -> int:
-        return len(cell.partition(self.dialect.decimal)[2])
-
-    def _is_value(self, index: int, cell: str) -> bool:
-        if cell in text_head.MISSING:
-            return True
-        if index == self.columns.get("time") and self.dialect.iso(index):
-            return text_head.ISO.fullmatch(cell) is not None
-        return text_head.number_pattern(self.dialect.decimal).fullmatch(cell) is not None
-
-    def _refuse(self, line: int, block: bytes, problem: str) -> Any:
-        """Find the first line of *block* that is not right and say why."""
-        width = len(self.dialect.first)
-        keys = {index: key for key, index in self.columns.items()}
-        for number, raw in enumerate(block.decode("utf-8", "replace").split("\n"), line):
-            cells = text_head.split(raw, self.dialect.delimiter)
-            if not raw:
-                continue
-            bad = [i for i in keys if i < len(cells) and not self._is_value(i, cells[i])]
-            if len(bad) > len(keys) / 2 or tuple(cells) == self.dialect.names:
-                raise FormatError(
-                    f"{self.where}: line {number}: text where numbers were expected ({raw[:60]!r}): "
-                    "a second log begins here? Split the file and read the parts one by one"
-                )
-            if len(cells) != width:
-                raise FormatError(
-                    f"{self.where}: line {number}: {len(cells)} cells, expected {width} like the first row; "
-                    "correct or delete the line"
-                )
-            if bad:
-                label = (self.dialect.names or ())[bad[0] : bad[0] + 1]
-                raise FormatError(
-                    f"{self.where}: line {number}, column {bad[0] + 1} ({label[0] if label else keys[bad[0]]}): "
-                    f"found {cells[bad[0]][:40]!r}, expected a number{self._advice(cells[bad[0]])}"
-                )
-        raise FormatError(f"{self.where}: after line {line}: {problem}")
-
-    def _advice(self, cell: str) -> str:
-        other = "," if self.dialect.decimal == "." else "."
-        if text_head.number_pattern(other).fullmatch(cell):
-            return f'; if the decimal sign is "{other}", say --decimal "{other}"'
-        return "; leave the cell empty where a sample is missing"
