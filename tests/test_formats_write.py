@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 
 import numpy as np
@@ -210,10 +209,10 @@ def test_benchmark_round_trip(tmp_path, kind):
 @settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(cut=st.integers(0, 2500), flips=st.lists(st.tuples(st.integers(0, 2500), st.integers(0, 255)), max_size=4))
 def test_damaged_text_is_read_or_refused(tmp_path, cut, flips):
-    buffer = bytearray(_text())
+    path = tmp_path / "a.txt"
+    buffer = bytearray(_text(tmp_path))
     for place, value in flips:
         buffer[place % len(buffer)] = value
-    path = tmp_path / "a.txt"
     path.write_bytes(bytes(buffer[: cut if flips == [] else len(buffer)]))
     for reader in (read, read_attitude):
         try:
@@ -222,13 +221,9 @@ def test_damaged_text_is_read_or_refused(tmp_path, cut, flips):
             assert str(problem).startswith(str(path))
 
 
-def _text(cache: list[bytes] = []) -> bytes:  # noqa: B006  # made once
+def _text(folder: Path, cache: list[bytes] = []) -> bytes:  # noqa: B006  # made once
     if not cache:
-        buffer = io.BytesIO()
-        from poise.formats import writing
-
-        writing._csv(recording(12), buffer)
-        cache.append(buffer.getvalue())
+        cache.append(write(recording(12), folder / "made.csv").read_bytes())
     return cache[0]
 
 

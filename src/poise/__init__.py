@@ -39,10 +39,13 @@ _HOME = {
     "conform": "poise.conformance",
     "diagnose": "poise.doctor",
     "estimate": "poise.estimators.engine",
+    "estimate_chunks": "poise.estimators.engine",
+    "estimate_file": "poise.file_to_file",
     "evaluate": "poise.evaluation",
     "read": "poise.formats",
     "read_attitude": "poise.formats",
     "read_learned": "poise.formats",
+    "read_chunks": "poise.formats",
     "smooth": "poise.estimators.self_calibrating.smoother",
     "sniff": "poise.formats",
     "write": "poise.formats",
@@ -69,6 +72,7 @@ if TYPE_CHECKING:
     from poise.estimators.armband import Armband as Armband
     from poise.estimators.engine import Stream as Stream
     from poise.estimators.engine import estimate as estimate
+    from poise.estimators.engine import estimate_chunks as estimate_chunks
     from poise.estimators.gated import Gated as Gated
     from poise.estimators.guard import Guard as Guard
     from poise.estimators.rest_bias import RestBias as RestBias
@@ -79,8 +83,10 @@ if TYPE_CHECKING:
     from poise.estimators.two_stage import TwoStage as TwoStage
     from poise.evaluation import Errors as Errors
     from poise.evaluation import evaluate as evaluate
+    from poise.file_to_file import estimate_file as estimate_file
     from poise.formats import read as read
     from poise.formats import read_attitude as read_attitude
+    from poise.formats import read_chunks as read_chunks
     from poise.formats import read_learned as read_learned
     from poise.formats import sniff as sniff
     from poise.formats import write as write

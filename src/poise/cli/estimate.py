@@ -51,6 +51,9 @@ def estimate(
     Reads gyroscope, accelerometer and magnetometer samples, estimates the orientation after every one of them and writes
     it beside its rate, bias, uncertainty and flags: for each FILE, `NAME.attitude.parquet` in the current folder.
 
+    Files above 64 MiB (`--limit whole=…`) are read, estimated and written in chunks, in a memory that does not grow. Where
+    such a run is killed, the same command goes on from what it wrote, which stands in `OUTPUT.partial` until all is done.
+
     Quaternions are w x y z and turn sensor axes into Earth axes (east, north, up) unless --frame says otherwise.
 
     Examples: `poise estimate walk.csv --plot walk.png`; `poise estimate logs/*.csv -m adaptive-gain -o results/`;
@@ -99,7 +102,14 @@ def estimate(
         _apart(outputs, pictures, tables, kept)
 
         def work(file: Path, tell: Callable[[str, float], None]) -> dict[str, Any]:
+            from poise.cli import long
+
             tell("reading", 0.0)
+            kind = format or outputs[file].suffix.lower().lstrip(".").replace("txt", "tum")
+            if long.suits(file, reading, running, kind):
+                for place in filter(None, (outputs[file], pictures.get(file))):
+                    make_room(place)
+                return long.estimate(file, outputs[file], kind, frame, pictures.get(file), reading, running, tell)
             recording = reading.read(file)
             tell("estimating (a first run compiles the method)", 0.2)
             n = max(len(recording), 1)

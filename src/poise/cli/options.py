@@ -6,7 +6,7 @@ import math
 import threading
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from datetime import date as Date
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from poise.data.attitude import Attitude
     from poise.data.learned import Learned
     from poise.data.recording import Recording
+    from poise.formats.limits import Limits
 
 FILE = Group("What the file does not say", sort_key=1)
 METHOD = Group("The method", sort_key=2)
@@ -69,6 +70,10 @@ class Reading:
     force: Annotated[bool, Parameter(negative="")] = False
     """Go on with a recording whose units or axes are surely wrong."""
 
+    limit: str | None = None
+    """What a file may hold: `rows=2e8,size=20GiB,columns=512,line=1MiB`; and `whole=1GiB`, the size above which `poise
+    estimate` works in chunks."""
+
     def read(self, path: Path) -> Recording:
         """The recording in *path*, corrected as told. Raises :class:`RecordingError` where it is surely wrong even so."""
         from poise.cli import corrected
@@ -79,13 +84,13 @@ class Reading:
         """The recording in *path*, or the attitude: what poise wrote as an attitude is one, in a ROS bag too."""
         from poise.formats import read_attitude, wrote_attitude
 
-        if wrote_attitude(path):
-            return read_attitude(path, topic=self.topic)
+        if wrote_attitude(path, limits=self.limits()):
+            return read_attitude(path, topic=self.topic, limits=self.limits())
         try:
             return self.read(path)
         except FormatError as no_recording:
             try:
-                return read_attitude(path, topic=self.topic)
+                return read_attitude(path, topic=self.topic, limits=self.limits())
             except FormatError:
                 raise no_recording from None
 
@@ -104,7 +109,16 @@ class Reading:
             "decimal": self.decimal,
             "rate": self.rate,
             "topic": self.topic,
+            "limits": self.limits(),
         }
+
+    def limits(self) -> Limits:
+        """The limits for files; :class:`UsageError` where --limit cannot be understood."""
+        from poise.formats.limits import Limits
+
+        return Limits(
+            **{name: _amount(name, value) for name, value in (pairs(self.limit, "--limit", "rows=2e8") or {}).items()}
+        )
 
     def _check(self) -> None:
         from poise.cli import corrected
@@ -189,6 +203,10 @@ class Running:
             usage(str(error))
         return method
 
+    @property
+    def told_declination(self) -> bool:
+        return self.declination is not None or self.place is not None
+
     def estimate(
         self,
         recording: Recording,
@@ -206,8 +224,7 @@ class Running:
         else:
             slew = None if self.slew is None else math.radians(self.slew)
             attitude = estimate(self.build(), recording, start, rest_bias=self.rest_bias, slew=slew, **known)
-        told = self.declination is not None or self.place is not None
-        if told and attitude.heading_reference == "magnetic":  # a declination of zero is a declination
+        if self.told_declination and attitude.heading_reference == "magnetic":  # a declination of zero is a declination
             attitude = replace(attitude, heading_reference="true")
         return attitude
 
@@ -265,6 +282,25 @@ class Running:
             return declination(latitude, longitude, when)
         except PoiseError as error:
             usage(str(error))
+
+
+def _amount(name: str, text: str) -> int:
+    from poise.formats.limits import Limits
+
+    known = [field.name for field in fields(Limits)]
+    if name not in known:
+        usage(f"--limit {name}=…: expected one of {', '.join(known)}")
+    number, power = text, 0
+    for i, unit in enumerate(("KiB", "MiB", "GiB", "TiB"), 1):
+        if text.lower().endswith(unit.lower()):
+            number, power = text[:-3], i
+    try:
+        found = float(number) * 1024.0**power
+    except ValueError:
+        found = -1.0
+    if not 0.0 <= found <= 2.0**63:
+        usage(f"--limit {name}={text}: expected a number such as 2e8 or 20GiB")
+    return int(found)
 
 
 def _checked_declination(degrees: float) -> float:

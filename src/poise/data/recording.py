@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from copy import copy
 from dataclasses import dataclass, replace
 from typing import Any
@@ -19,6 +20,7 @@ Floats = NDArray[np.float64]
 STANDARD_GRAVITY = 9.80665
 _SLOWEST = 0.5  # s: no gyroscope is read less often; a larger median step means stamps in another unit
 _EARLIEST = 0.5  # s before the first gyroscope instant: an older sample says nothing of it
+_ROWS = ("time", "gyr", "acc", "mag", "acc_age", "mag_age")
 _UNITS_OF_TIME = ((1e-3, "milliseconds", 1e3), (1e-6, "microseconds", 1e6), (1e-9, "nanoseconds", 1e9))
 
 
@@ -72,7 +74,7 @@ class Recording:
             raise RecordingError(f"gravity: expected m/s², about 9.8 on Earth, found {self.gravity!r}")
         for name, value in values.items():
             object.__setattr__(self, name, value)
-        _check_unit_of_time(values["time"])
+        check_unit_of_time(values["time"])
 
     @classmethod
     def at_rate(
@@ -113,7 +115,7 @@ class Recording:
         """The same recording, fewer rows: a slice, a mask or indices."""
         if not isinstance(rows, slice):
             rows = np.atleast_1d(rows)
-        cut = {name: getattr(self, name)[rows] for name in ("time", "gyr", "acc", "mag", "acc_age", "mag_age")}
+        cut = {name: getattr(self, name)[rows] for name in _ROWS}
         cut |= {name: getattr(self, name)[rows] for name in ("truth", "moving") if getattr(self, name) is not None}
         return self.with_samples(**cut)
 
@@ -122,6 +124,29 @@ class Recording:
         part = copy(self)
         part.__dict__.update(values)
         return part
+
+    @classmethod
+    def joined(cls, parts: Iterable[Recording]) -> Recording:
+        """The rows of consecutive *parts* of one recording, at least one, as one recording."""
+        first: Recording | None = None
+        rows: dict[str, list[Any]] = {name: [] for name in (*_ROWS, "moving", "truth")}
+        for part in parts:
+            first = first or part
+            for name, found in rows.items():
+                found.append(getattr(part, name))
+        if first is None:
+            raise RecordingError("no parts to join into a recording")
+        if len(rows["time"]) == 1:
+            return first
+        truths = rows.pop("truth")
+        values: dict[str, Any] = {}
+        for name in list(rows):  # one after another, so that each part's memory is free again soon
+            arrays_of = rows.pop(name)
+            values[name] = None if arrays_of[0] is None else np.concatenate(arrays_of)
+        if first.truth is not None:
+            tables, flags = np.concatenate([t.table for t in truths]), np.concatenate([t.flags for t in truths])
+            values["truth"] = replace(first.truth, time=values["time"], table=tables, flags=flags)
+        return first.with_samples(**values)
 
     def between(self, start: float, end: float) -> Recording:
         """The rows with start ≤ time < end, s."""
@@ -255,7 +280,8 @@ def _rows(name: str, values: Any, shape: tuple[int, ...], absent: float) -> Floa
     return array
 
 
-def _check_unit_of_time(time: Floats) -> None:
+def check_unit_of_time(time: Floats) -> None:
+    """Raises :class:`RecordingError` where stamps (n,) cannot be a gyroscope's in s, or run backwards."""
     steps = np.diff(time)
     if np.sum(steps < 0) > max(2, 0.5 * len(steps)):
         raise RecordingError(f"time: {np.sum(steps < 0)} of {len(steps)} steps go backwards; reverse the rows")

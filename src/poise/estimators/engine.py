@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from math import inf, isfinite, nan
 from typing import Any, Self
@@ -228,7 +228,7 @@ class Stream:
         """Everything needed to go on in another process: JSON text with a checksum, no pickle. See :meth:`restore`."""
         latest = self._latest
         kept = {
-            "method": self._identity(),
+            "method": self.identity,
             "state": flat(self.state),
             "aside": self._aside.tolist(),
             "heading_reference": self._heading,
@@ -261,9 +261,9 @@ class Stream:
             identity, numbers, reset = kept["method"], kept["state"], bool(kept["heading_reset"])
         except (ValueError, KeyError, TypeError, IndexError, OverflowError) as problem:
             raise StateError(f"not a saved stream: {problem!r}; give the bytes that Stream.save() returned") from None
-        if identity != self._identity():
+        if identity != self.identity:
             raise StateError(
-                f"the saved stream ran {identity}, this one runs {self._identity()}; "
+                f"the saved stream ran {identity}, this one runs {self.identity}; "
                 "restore it into a Stream with the same method and parameters"
             )
         memory = run = None
@@ -283,7 +283,9 @@ class Stream:
         """Copies and pickles are streams of their own, at the same place."""
         return _revived, (*self._made_of, self.save())
 
-    def _identity(self) -> str:
+    @property
+    def identity(self) -> str:
+        """The method with its wrappers and every parameter: what a saved state belongs to."""
         return f"{type(self._running).__name__}{json.dumps(as_dict(self._running), default=repr)}"
 
     def _fill_row(self, packet: Packet) -> None:
@@ -336,19 +338,30 @@ def estimate(
         )
     method = at_gravity(method, recording.gravity)
     stream = Stream(method, start, bias=bias, guard=guard, rest_bias=rest_bias, start_from=start_from, slew=slew)
-    return feed(stream, recording, _BLOCK, learning=learning, progress=progress)
+    return feed(stream, recording, learning=learning, progress=progress)
+
+
+def estimate_chunks(method: Any, chunks: Iterable[Recording], **options: Any) -> Iterator[tuple[Recording, Attitude]]:
+    """Each of the consecutive recordings *chunks* and its attitude: together, bit for bit, those of :func:`estimate`.
+
+    For recordings that do not fit into memory; *options* are those of :class:`Stream`.
+    """
+    stream = None
+    for recording in chunks:
+        stream = stream or Stream(at_gravity(method, recording.gravity), **options)
+        yield recording, feed(stream, recording)
 
 
 def feed(
     stream: Stream,
     recording: Recording,
-    block: int,
+    block: int = _BLOCK,
     *,
     after: Callable[[slice, NDArray[np.uint32]], None] | None = None,
     learning: float | None = None,
     progress: Callable[[int], None] | None = None,
 ) -> Attitude:
-    """What a fresh *stream* says about *recording*, *block* rows at a time; *after* is told of each: rows, flags."""
+    """What *stream* says about the next rows, *recording*, *block* at a time; *after* is told of each: rows, flags."""
     n = len(recording)
     cuts = frozenset() if learning is None else frozenset(every(learning, recording.time))
     times: list[float] = []

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from poise.errors import FormatError
 from poise.formats import names
 from poise.formats.limits import Options
-from poise.formats.table import Table
+from poise.formats.table import Table, Whole
 
 _PARTS = {3: ("x", "y", "z"), 4: ("qw", "qx", "qy", "qz")}
 _NAMES = "name them gyr, acc, mag (n, 3) and time (n,) or fs, or say --columns their_name=gyr,their_other=acc"
@@ -74,7 +74,7 @@ def _table(
     if not rows:
         raise FormatError(f"{where}: no rows")
     floats = {key: np.array(values, dtype=np.float64) for key, values in used.items()}
-    return Table(kind, layout, floats, {}, rate, "", [*notes, *layout.notes])
+    return Table(kind, layout, Whole(floats), {}, rate, "", [*notes, *layout.notes])
 
 
 def _expect(where: str, title: str, right: bool, array: NDArray[Any], expected: str) -> None:

@@ -17,7 +17,7 @@ from poise.errors import FormatError, RecordingError
 from poise.formats import bag, evidence, names, parquet, recognise, text, text_head, units
 from poise.formats.limits import Limits, Options
 from poise.formats.names import QUAT as QUAT_NAMES
-from poise.formats.table import Floats
+from poise.formats.table import Floats, everything
 
 TABLE = (*QUAT_NAMES, *(f"{name}_{axis}" for name in ("rate", "bias", "sigma", "bias_sigma") for axis in "xyz"))
 TUM = ("timestamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw")
@@ -75,8 +75,8 @@ def _from_parquet(where: str, path: Path, options: Options) -> tuple[dict[str, F
         options.limits.check(where, "columns", len(present))
         facts = parquet.metadata(file)
         wanted, unit = _wanted(where, present)
-        values, calendar = parquet.columns(where, path, file, {k: present[i] for k, i in wanted.items()}, options)
-    return values, facts, "s" if calendar else unit
+        rows = parquet.ParquetRows(where, path, file, {k: present[i] for k, i in wanted.items()}, options)
+    return everything(where, rows, options.limits), facts, "s" if rows.calendar else unit
 
 
 def _from_text(where: str, path: Path, options: Options) -> tuple[dict[str, Floats], dict[str, str], str]:
@@ -90,7 +90,7 @@ def _from_text(where: str, path: Path, options: Options) -> tuple[dict[str, Floa
             found = f"{len(dialect.first)} columns without a header"
             raise FormatError(f"{where}: {found}; expected columns time, qw, qx, qy, qz, or the eight of TUM")
         wanted, unit = _wanted(where, header)
-        values, _, _ = text.parse(where, file, dialect, wanted, options.limits)
+    values = everything(where, text.TextRows(where, path, dialect, wanted, options.limits), options.limits)
     return values, dialect.facts, "s" if header == TUM or dialect.iso(wanted["time"]) else unit
 
 

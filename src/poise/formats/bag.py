@@ -14,7 +14,7 @@ from poise.formats import bag_library, bag_stamps, bag_topics, bounded, names, r
 from poise.formats.held import fresh
 from poise.formats.limits import Limits, Options
 from poise.formats.names import QUAT
-from poise.formats.table import Floats, Table
+from poise.formats.table import Floats, Table, Whole
 
 _NAMES = {"ros1": "ROS 1 bag", "ros2": "ROS 2 bag", "mcap": "MCAP file", "db3": "ROS 2 SQLite file"}
 KINDS = tuple(_NAMES)
@@ -239,4 +239,4 @@ def _table(
     layout = names.choose(where, list(columns))
     found = list(columns.values())
     used = {key: np.array(found[column.index]) for key, column in layout.columns.items()}
-    return Table(_NAMES[bag.kind], layout, used, {}, None, "", bag.notes, bag.doubts)
+    return Table(_NAMES[bag.kind], layout, Whole(used), {}, None, "", bag.notes, bag.doubts)

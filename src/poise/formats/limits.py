@@ -22,6 +22,8 @@ class Limits:
     columns: int = 256
     line: int = 64 * 2**10
     """bytes of text without a line break"""
+    whole: int = 64 * 2**20
+    """bytes on disk: `poise estimate` works on a larger file in chunks"""
 
     def check(self, where: str, limit: str, found: int) -> None:
         """Raises :class:`FormatError` where *found* is above the limit of that name."""
@@ -29,7 +31,7 @@ class Limits:
         if found > allowed:
             raise FormatError(
                 f"{where}: {found:,} {_WHAT[limit]}, the limit is {allowed:,}; if the file is in order, "
-                f"in Python, read(path, limits=Limits({limit}=…)) raises it"
+                f"raise it: --limit {limit}=…, in Python read(path, limits=Limits({limit}=…))"
             )
 
 

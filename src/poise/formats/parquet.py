@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -9,9 +10,7 @@ from poise.data import arrow
 from poise.errors import FormatError
 from poise.formats import names
 from poise.formats.limits import Options, check_expansion
-from poise.formats.table import KIND, Blocks, Floats, Table
-
-_BATCH = 65_536  # rows
+from poise.formats.table import BLOCK, KIND, Block, Columns, Table, joined, stretches
 
 
 def read(path: Path, options: Options) -> Table:
@@ -25,8 +24,8 @@ def read(path: Path, options: Options) -> Table:
         header = names.renamed(where, file.schema_arrow.names, options.columns, len(file.schema_arrow.names))
         layout = names.choose(where, header, timed=options.rate is not None)
         wanted = {key: file.schema_arrow.names[column.index] for key, column in layout.columns.items()}
-        values, calendar = columns(where, path, file, wanted, options)
-    return Table("Parquet", layout, values, facts, None, "s" if calendar else "", list(layout.notes))
+        rows = ParquetRows(where, path, file, wanted, options)
+    return Table("Parquet", layout, rows, facts, None, "s" if rows.calendar else "", list(layout.notes))
 
 
 def opened(where: str, path: Path) -> Any:
@@ -35,7 +34,8 @@ def opened(where: str, path: Path) -> Any:
     from pyarrow import parquet
 
     try:
-        return parquet.ParquetFile(path, page_checksum_verification=True)
+        # In pieces: a row group may be as long as the file.
+        return parquet.ParquetFile(path, page_checksum_verification=True, pre_buffer=False, buffer_size=2**20)
     except (pyarrow.ArrowException, OSError, ValueError) as problem:
         raise FormatError(f"{where}: damaged Parquet file ({_short(problem)}); copy or export it again") from None
 
@@ -46,33 +46,83 @@ def metadata(file: Any) -> dict[str, str]:
     return {key.decode("utf-8", "replace"): value.decode("utf-8", "replace") for key, value in found.items()}
 
 
-def columns(
-    where: str, path: Path, file: Any, wanted: dict[str, str], options: Options
-) -> tuple[dict[str, Floats], bool]:
-    """The *wanted* columns (key to name) as float64, and whether time is a calendar's (then in s)."""
-    import pyarrow
+class ParquetRows:
+    """The rows of a Parquet file, a batch at a time; *wanted* is key to column name.
 
-    rows = file.metadata.num_rows
-    if rows <= 0:
-        raise FormatError(f"{where}: no rows")
-    options.limits.check(where, "rows", rows)
-    check_expansion(where, path.stat().st_size, rows * 8 * len(wanted))
-    calendar = False
-    blocks = Blocks(len(wanted))
-    try:
-        kinds = {name: file.schema_arrow.field(name).type for name in wanted.values()}
+    Raises :class:`FormatError` where the footer promises more than there can be, or a column holds no numbers.
+    """
+
+    def __init__(self, where: str, path: Path, file: Any, wanted: dict[str, str], options: Options) -> None:
+        import pyarrow
+
+        self._where, self._path, self._wanted = where, path, wanted
+        self.count = int(file.metadata.num_rows)
+        if self.count <= 0:
+            raise FormatError(f"{where}: no rows")
+        options.limits.check(where, "rows", self.count)
+        check_expansion(where, path.stat().st_size, self.count * 8 * len(wanted))
+        self.calendar = False
+        """whether time is a calendar's (then in s)"""
         for key, name in wanted.items():
-            if pyarrow.types.is_timestamp(kinds[name]) and key == "time":
-                calendar = True
-            elif not _is_number(kinds[name]):
-                raise FormatError(f"{where}: column {name!r} ({key}) holds {kinds[name]}, expected numbers")
-        for batch in file.iter_batches(_BATCH, columns=list(wanted.values()), use_threads=False):
-            blocks.add([arrow.floats(batch.column(name)) for name in wanted.values()])
-    except (pyarrow.ArrowException, OSError, ValueError, KeyError) as problem:
-        raise FormatError(f"{where}: damaged Parquet file ({_short(problem)}); copy or export it again") from None
-    if blocks.rows != rows:
-        raise FormatError(f"{where}: the footer promises {rows} rows, {blocks.rows} were found; the file is damaged")
-    return dict(zip(wanted, blocks.columns(), strict=True)), calendar
+            kind = file.schema_arrow.field(name).type
+            if pyarrow.types.is_timestamp(kind) and key == "time":
+                self.calendar = True
+            elif not _is_number(kind):
+                raise FormatError(f"{where}: column {name!r} ({key}) holds {kind}, expected numbers")
+
+    def sample(self) -> Columns:
+        """Every row of a short file, else evenly spread stretches of it."""
+        wanted = stretches(self.count)
+        parts: list[Columns] = []
+        for block in self._overlapping(wanted):
+            start, end = block.position[0], block.position[0] + _length(block)
+            for part in wanted:
+                if part.start < end and part.stop > start:
+                    rows = slice(max(part.start - start, 0), part.stop - start)
+                    parts.append({key: values[rows] for key, values in block.columns.items()})
+        if not parts:
+            raise FormatError(f"{self._where}: the footer promises {self.count} rows, none were found; it is damaged")
+        return joined(parts)
+
+    def blocks(self, position: tuple[int, ...] | None = None) -> Iterator[Block]:
+        """All rows, or those from a block on; raises :class:`FormatError` where the file is damaged."""
+        found = position[0] if position else 0
+        for block in self._overlapping([slice(found, self.count)]):
+            found = block.position[0] + _length(block)
+            yield block
+        if found != self.count:
+            raise FormatError(
+                f"{self._where}: the footer promises {self.count} rows, {found} were found; the file is damaged"
+            )
+
+    def _overlapping(self, parts: list[slice]) -> Iterator[Block]:
+        """The batches that hold any of those rows; a batch never spans two row groups."""
+        import pyarrow
+
+        try:
+            with opened(self._where, self._path) as file:
+                start = 0
+                for group in range(file.metadata.num_row_groups):
+                    end = start + file.metadata.row_group(group).num_rows
+                    if any(part.start < end and part.stop > start for part in parts):
+                        yield from self._group(file, group, start, parts)
+                    start = end
+        except (pyarrow.ArrowException, OSError, ValueError, KeyError) as problem:
+            advice = "copy or export it again"
+            raise FormatError(f"{self._where}: damaged Parquet file ({_short(problem)}); {advice}") from None
+
+    def _group(self, file: Any, group: int, start: int, parts: list[slice]) -> Iterator[Block]:
+        names = list(self._wanted.values())
+        for batch in file.iter_batches(BLOCK, row_groups=[group], columns=names, use_threads=False):
+            end = start + batch.num_rows
+            if any(part.start < end and part.stop > start for part in parts):
+                columns = {key: arrow.floats(batch.column(name)) for key, name in self._wanted.items()}
+                yield Block((start,), columns)
+            start = end
+
+
+def _length(block: Block) -> int:
+    return len(next(iter(block.columns.values())))
 
 
 def _is_number(kind: Any) -> bool:

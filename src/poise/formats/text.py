@@ -3,25 +3,22 @@
 from __future__ import annotations
 
 import codecs
-import io
-import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy as np
 
-from poise.data import arrow
 from poise.errors import FormatError
 from poise.formats import names, text_head
 from poise.formats.limits import Limits, Options
-from poise.formats.table import KIND, Blocks, Floats, Table
+from poise.formats.table import KIND, STRETCH, STRETCHES, Block, Columns, Table, joined
 from poise.formats.text_head import Dialect
+from poise.formats.text_parser import COMMENT, Parser
 
 _BLOCK = 4 * 2**20  # bytes
-_COMMENT = re.compile(rb"(?m)^[ \t]*(?:#|//|%)[^\n]*")
-_MARKS = (b"#", b"/", b"%")  # single bytes are found fastest
+_SMALL = 32 * 2**20  # bytes: a file of which every row is looked at before any is used
+_STRETCH_BYTES = 16 * 2**20  # bytes that a stretch of the sample may take, should its lines be long
 
 
 def read(path: Path, options: Options) -> Table:
@@ -29,63 +26,134 @@ def read(path: Path, options: Options) -> Table:
     where = str(path)
     with path.open("rb") as file:
         head = file.read(4 * options.limits.line)
-        whole = not file.read(1)
-        dialect = text_head.inspect(where, head, whole, options)
-        if dialect.facts.get(KIND) == "attitude":
-            raise FormatError(f"{where}: an attitude that poise wrote, not a recording; read it with read_attitude")
-        header = names.renamed(where, dialect.names, options.columns, len(dialect.first))
-        layout = names.choose(where, header, timed=options.rate is not None)
-        columns = {key: column.index for key, column in layout.columns.items()}
-        values, notes, doubts = parse(where, file, dialect, columns, options.limits)
-    said = [*dialect.notes, *layout.notes, *notes]
-    calendar = dialect.iso(columns.get("time"))
-    return Table(dialect.sentence, layout, values, dialect.facts, None, "s" if calendar else "", said, doubts)
+        dialect = text_head.inspect(where, head, not file.read(1), options)
+    if dialect.facts.get(KIND) == "attitude":
+        raise FormatError(f"{where}: an attitude that poise wrote, not a recording; read it with read_attitude")
+    header = names.renamed(where, dialect.names, options.columns, len(dialect.first))
+    layout = names.choose(where, header, timed=options.rate is not None)
+    columns = {key: column.index for key, column in layout.columns.items()}
+    rows = TextRows(where, path, dialect, columns, options.limits)
+    rows.notes += [*dialect.notes, *layout.notes]
+    calendar = "s" if dialect.iso(columns.get("time")) else ""
+    return Table(dialect.sentence, layout, rows, dialect.facts, None, calendar, rows.notes, rows.doubts)
 
 
-def parse(
-    where: str, file: BinaryIO, dialect: Dialect, columns: dict[str, int], limits: Limits
-) -> tuple[dict[str, Floats], list[str], list[str]]:
-    """The named *columns* (key to index) of all rows as float64, with notes and doubts about the end of the file."""
-    parser = _Parser(where, dialect, columns)
-    blocks = Blocks(len(columns))
-    notes: list[str] = []
-    doubts: list[str] = []
-    for line, block, ended in _lines(where, file, dialect, limits):
-        if not ended:
-            if parser.is_cut(block):
-                notes.append(f"line {line}: the last row is cut short and left out")
+class TextRows:
+    """The rows of a text file; *columns* is key to column number. Its position is a byte, a line and lines to skip.
+
+    *notes* and *doubts* grow when the end of the file is read. Raises :class:`FormatError` with line, column and
+    reason where a row is not right.
+    """
+
+    def __init__(self, where: str, path: Path, dialect: Dialect, columns: dict[str, int], limits: Limits) -> None:
+        self._where, self._path, self._dialect, self._limits = where, path, dialect, limits
+        self._parser = Parser(where, dialect, columns)
+        self._kept: list[Block] | None = None  # a small file is parsed once, for sample and rows
+        self.notes: list[str] = []
+        self.doubts: list[str] = []
+
+    def sample(self) -> Columns:
+        """Every row of a file up to 32 MiB, else evenly spread stretches of it."""
+        size = self._path.stat().st_size
+        if size <= _SMALL:
+            self._kept = list(self.blocks())
+            return joined([block.columns.copy() for block in self._kept])
+        parts = []
+        try:
+            for i in range(STRETCHES):
+                parts += self._stretch(self._line_after(i * (size // STRETCHES)) if i else None)
+        except FormatError:
+            said = len(self.notes), len(self.doubts)
+            for _ in self.blocks():  # which says the line
+                pass
+            del self.notes[said[0] :], self.doubts[said[1] :]
+        if not parts:
+            raise FormatError(f"{self._where}: no whole row of numbers found; expected one sample a line")
+        return joined(parts)
+
+    def blocks(self, position: tuple[int, ...] | None = None) -> Iterator[Block]:
+        """All rows, or those from a block on."""
+        if self._kept is not None:
+            yield from (block for block in self._kept if position is None or block.position >= tuple(position))
+            return
+        found = position is not None
+        for at, columns, ended in self._parsed(position):
+            if columns is None:
+                self.notes.append(f"line {at[1]}: the last row is cut short and left out")
                 continue
-            doubts.append("the file does not end with a line break: its last row may be cut short")
-        rows = parser.rows(line, block)
-        if rows is not None:
-            blocks.add(rows)
-            limits.check(where, "rows", blocks.rows)
-    if not blocks.rows:
-        raise FormatError(f"{where}: no whole row of numbers found; expected one sample a line")
-    return dict(zip(columns, blocks.columns(), strict=True)), notes, doubts
+            if not ended:
+                self.doubts.append("the file does not end with a line break: its last row may be cut short")
+            found = True
+            yield Block(at, columns)
+        if not found:
+            raise FormatError(f"{self._where}: no whole row of numbers found; expected one sample a line")
+
+    def _parsed(self, position: tuple[int, ...] | None) -> Iterator[tuple[tuple[int, ...], Columns | None, bool]]:
+        """Blocks with rows, None for a last row that is cut short, and whether a line break ends them."""
+        with self._path.open("rb") as file:
+            for at, line, block, ended in _lines(self._where, file, self._dialect, self._limits, position):
+                if not ended and self._parser.is_cut(block):
+                    yield at, None, ended
+                elif (rows := self._parser.rows(line, block)) is not None:
+                    yield at, rows, ended
+
+    def _stretch(self, position: tuple[int, ...] | None) -> list[Columns]:
+        parts: list[Columns] = []
+        missing = STRETCH
+        for at, columns, _ in self._parsed(position):
+            if columns is None or missing <= 0 or at[0] - (position or (0,))[0] > _STRETCH_BYTES:
+                break
+            parts.append({key: values[:missing] for key, values in columns.items()})
+            missing -= len(next(iter(columns.values())))
+        return parts
+
+    def _line_after(self, offset: int) -> tuple[int, ...]:
+        """The position of the first line that begins behind *offset*."""
+        wide = 1 if self._dialect.encoding == "utf-8" else 2
+        offset += (offset - self._dialect.bom) % wide
+        feed, back = (mark.encode(self._dialect.encoding) for mark in "\n\r")
+        with self._path.open("rb") as file:
+            file.seek(offset)
+            window = file.read(wide * (self._limits.line + 4))
+        at = 0
+        while at < len(window) and window[at : at + wide] not in (feed, back):
+            at += wide
+        at += 2 * wide if window[at : at + 2 * wide] == back + feed else wide
+        return offset + at, 0, 0
 
 
-def _lines(where: str, file: BinaryIO, dialect: Dialect, limits: Limits) -> Iterator[tuple[int, bytes, bool]]:
-    """Blocks of whole lines as UTF-8 with \\n, each with its first line's number; last what no line break ends."""
-    file.seek(dialect.bom)
+def _lines(
+    where: str, file: BinaryIO, dialect: Dialect, limits: Limits, position: tuple[int, ...] | None = None
+) -> Iterator[tuple[tuple[int, ...], int, bytes, bool]]:
+    """Blocks of whole lines as UTF-8 with \\n: position, first line's number, lines, whether a line break ends them."""
+    offset, line, skip = position or (dialect.bom, 1, dialect.skip)
+    file.seek(offset)
     decoder = codecs.getincrementaldecoder(dialect.encoding)() if dialect.encoding != "utf-8" else None
-    line, rest, skip = 1, b"", dialect.skip
+    rest = b""
     while raw := file.read(_BLOCK):
+        at = (offset, line, skip)
         block = rest + (_transcode(where, line, decoder, raw) if decoder else raw)
         held = b"\r" if block.endswith(b"\r") else b""  # perhaps half of \r\n
         if b"\r" in block:
             block = block[: len(block) - len(held)].replace(b"\r\n", b"\n").replace(b"\r", b"\n")
         cut = block.rfind(b"\n") + 1
         rest, block = block[cut:] + held, block[:cut]
+        offset = file.tell() - _pending(decoder) - len(rest.decode().encode(dialect.encoding) if decoder else rest)
         count = _check_lines(where, line, block, rest, limits)
         if block:
             for first, part in _without(block, line, skip):
-                yield first, part, True
+                yield at, first, part, True
             line, skip = line + count, max(0, skip - count)
+    at = (offset, line, skip)
     if rest.endswith(b"\r"):
-        yield line, rest[:-1] + b"\n", True
-    elif rest.strip() and not _COMMENT.match(rest):
-        yield line, rest, False
+        yield at, line, rest[:-1] + b"\n", True
+    elif rest.strip() and not COMMENT.match(rest):
+        yield at, line, rest, False
+
+
+def _pending(decoder: Any) -> int:
+    """Bytes that *decoder* has read and not yet given."""
+    return len(decoder.getstate()[0]) if decoder else 0
 
 
 def _without(block: bytes, line: int, skip: int) -> Iterator[tuple[int, bytes]]:
@@ -121,103 +189,3 @@ def _check_lines(where: str, line: int, block: bytes, rest: bytes, limits: Limit
             "Cut it before this line"
         )
     return len(ends)
-
-
-@dataclass
-class _Parser:
-    """Turns blocks of lines into columns of float64 for one file."""
-
-    where: str
-    dialect: Dialect
-    columns: dict[str, int]
-
-    def rows(self, line: int, block: bytes) -> list[Floats] | None:
-        """The wanted columns of one block; None where it holds no row."""
-        if any(mark in block for mark in _MARKS):
-            block = _COMMENT.sub(b"", block)
-        if self.dialect.delimiter == " ":
-            block = re.sub(rb"(?m)^ | $", b"", re.sub(rb"[ \t]+", b" ", block))
-        if not block.strip():
-            return None
-        import pyarrow
-
-        try:
-            table = self._parse(block)
-        except pyarrow.ArrowException as problem:
-            self._refuse(line, block, str(problem))
-        expected = block.count(b"\n") + (not block.endswith(b"\n"))
-        if table.num_rows != expected:
-            expected -= len(re.findall(rb"(?m)^\n", block))
-            if table.num_rows != expected:
-                self._refuse(line, block, f"{expected} lines gave {table.num_rows} rows")
-        return [arrow.floats(table.column(f"c{index}")) for index in self.columns.values()]
-
-    def _parse(self, block: bytes) -> Any:
-        import pyarrow
-        from pyarrow import csv
-
-        width = [f"c{i}" for i in range(len(self.dialect.first))]
-        types: dict[str, Any] = {f"c{index}": pyarrow.float64() for index in self.columns.values()}
-        time = self.columns.get("time")
-        if time is not None and self.dialect.iso(time):
-            zoned = not re.search(r"\d$", cell := self.dialect.first[time]) or bool(re.search(r":\d\d.*[+-]\d\d", cell))
-            types[f"c{time}"] = pyarrow.timestamp("ns", "UTC" if zoned else None)
-        return csv.read_csv(
-            io.BytesIO(block),
-            csv.ReadOptions(use_threads=False, block_size=max(len(block) + 1, 1024), column_names=width),
-            csv.ParseOptions(delimiter=self.dialect.delimiter, quote_char='"' if b'"' in block else False),
-            csv.ConvertOptions(
-                column_types=types,
-                include_columns=list(types),
-                null_values=list(text_head.MISSING),
-                decimal_point=self.dialect.decimal,
-            ),
-        )
-
-    def is_cut(self, line: bytes) -> bool:
-        """Whether the last line, which no line break ends, is the beginning of a row only."""
-        cells = text_head.split(line.decode("utf-8", "replace"), self.dialect.delimiter)
-        if len(cells) < len(self.dialect.first):
-            return True
-        last = len(self.dialect.first) - 1
-        return len(cells) == last + 1 and last in self.columns.values() and not self._is_value(last, cells[last])
-
-    def _is_value(self, index: int, cell: str) -> bool:
-        if cell in text_head.MISSING:
-            return True
-        if index == self.columns.get("time") and self.dialect.iso(index):
-            return text_head.ISO.fullmatch(cell) is not None
-        return text_head.number_pattern(self.dialect.decimal).fullmatch(cell) is not None
-
-    def _refuse(self, line: int, block: bytes, problem: str) -> Any:
-        """Find the first line of *block* that is not right and say why."""
-        width = len(self.dialect.first)
-        keys = {index: key for key, index in self.columns.items()}
-        for number, raw in enumerate(block.decode("utf-8", "replace").split("\n"), line):
-            cells = text_head.split(raw, self.dialect.delimiter)
-            if not raw:
-                continue
-            bad = [i for i in keys if i < len(cells) and not self._is_value(i, cells[i])]
-            if len(bad) > len(keys) / 2 or tuple(cells) == self.dialect.names:
-                raise FormatError(
-                    f"{self.where}: line {number}: text where numbers were expected ({raw[:60]!r}): "
-                    "a second log begins here? Split the file and read the parts one by one"
-                )
-            if len(cells) != width:
-                raise FormatError(
-                    f"{self.where}: line {number}: {len(cells)} cells, expected {width} like the first row; "
-                    "correct or delete the line"
-                )
-            if bad:
-                label = (self.dialect.names or ())[bad[0] : bad[0] + 1]
-                raise FormatError(
-                    f"{self.where}: line {number}, column {bad[0] + 1} ({label[0] if label else keys[bad[0]]}): "
-                    f"found {cells[bad[0]][:40]!r}, expected a number{self._advice(cells[bad[0]])}"
-                )
-        raise FormatError(f"{self.where}: after line {line}: {problem}")
-
-    def _advice(self, cell: str) -> str:
-        other = "," if self.dialect.decimal == "." else "."
-        if text_head.number_pattern(other).fullmatch(cell):
-            return f'; if the decimal sign is "{other}", say --decimal "{other}"'
-        return "; leave the cell empty where a sample is missing"

@@ -140,6 +140,9 @@ def _delimiter(where: str, lines: list[str], told: str | None, decimal: str | No
             best, choice = score, (delimiter, mark)
     if choice is not None:
         return choice
+    if (told or decimal) and max(_score(lines, *each) for each in product(_DELIMITERS, ".,")) > (0.0, 0):
+        given = [f"{name} {value!r}" for name, value in (("--delimiter", told), ("--decimal", decimal)) if value]
+        raise FormatError(f"{where}: no rows of numbers with {' and '.join(given)}; without, there are: leave it out")
     for i, delimiter in product(range(min(3, len(lines))), _DELIMITERS):
         if sum(bool(parse(name).role) for name in split(lines[i], delimiter)) >= 3:
             raise FormatError(f"{where}: line {i + 1} names columns, but no row of numbers follows")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 from collections.abc import Iterator
@@ -9,6 +10,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy as np
+from numpy.typing import NDArray
 
 from poise.data import arrow
 from poise.data.attitude import Attitude
@@ -17,12 +19,14 @@ from poise.data.recording import Recording
 from poise.errors import FormatError
 from poise.formats import bag_writing
 from poise.formats.attitudes import TUM
+from poise.formats.bodies import Body, ParquetBody, TextBody
 from poise.formats.names import QUAT, SENSORS
 from poise.formats.npz import FACTS
 from poise.formats.saving import replacing
+from poise.formats.table import BLOCK
 from poise.formats.units import SI
 
-_SUFFIXES = {
+SUFFIXES = {
     ".parquet": "parquet",
     ".csv": "csv",
     ".tum": "tum",
@@ -44,7 +48,6 @@ _WHAT = {
     Learning: "what was learned over time",
     Learned: "what was learned",
 }
-_BLOCK = 65_536  # rows
 
 
 def write(
@@ -66,7 +69,7 @@ def write(
     allowed = _KINDS.get(type(thing))
     if allowed is None:
         raise FormatError(f"{path}: expected an Attitude or a Recording to write, found {type(thing).__name__}")
-    kind = format or _SUFFIXES.get(path.suffix.lower(), "")
+    kind = format or SUFFIXES.get(path.suffix.lower(), "")
     if kind not in allowed:
         raise FormatError(
             f"{path}: {kind or path.suffix or 'no extension'} is no format for {_WHAT[type(thing)]}; "
@@ -78,13 +81,47 @@ def write(
     with replacing(path) as file:
         if kind == "npz" and isinstance(thing, Recording):
             _npz(thing, file)
-        elif kind == "tum" and isinstance(thing, Attitude):
-            _tum(thing, file)
         elif isinstance(thing, Learned):
             file.write(f"{thing.as_json(indent=2)}\n".encode())
         else:
-            {"parquet": _parquet, "csv": _csv}[kind](thing, file)
+            rows, facts = body(kind, file, io.BytesIO(), columns(kind, thing)), _facts(thing)
+            unknown = int(np.sum(~has_attitude(thing))) if kind == "tum" else 0
+            file.write(rows.head(facts, comments(unknown, len(thing))))
+            for table in tables(kind, thing):
+                rows.add(table)
+            file.write(rows.tail(facts))
     return path
+
+
+def body(kind: str, file: BinaryIO, index: BinaryIO, names: tuple[str, ...]) -> Body:
+    """Where the rows of a "parquet", "csv" or "tum" file with columns *names* are appended to."""
+    if kind == "parquet":
+        return ParquetBody(file, index, names)
+    return TextBody(file, names, " " if kind == "tum" else ",")
+
+
+def columns(kind: str, thing: Attitude | Recording | Learning) -> tuple[str, ...]:
+    """The names of a file's columns."""
+    return TUM if kind == "tum" else tuple(_columns(thing))
+
+
+def comments(unknown: int, rows: int) -> list[str]:
+    """What a TUM file says of the rows that are not in it."""
+    return [f"{unknown} of {rows} rows have no attitude and are left out"] if unknown else []
+
+
+def tables(kind: str, thing: Attitude | Recording | Learning) -> Iterator[Any]:
+    """The rows of a "parquet", "csv" or "tum" file as Arrow tables of a block of rows each; at least one."""
+    if kind == "tum" and isinstance(thing, Attitude):
+        thing = thing[has_attitude(thing)]
+    for start in range(0, max(len(thing), 1), BLOCK):
+        part = thing[start : start + BLOCK]
+        yield arrow.table(_tum(part) if kind == "tum" and isinstance(part, Attitude) else _columns(part))
+
+
+def has_attitude(thing: Any) -> NDArray[np.bool_]:
+    """(n,) the rows of an attitude that a TUM file holds."""
+    return np.asarray(np.isfinite(thing.quat).all(axis=1) & np.isfinite(thing.time))
 
 
 def _columns(thing: Attitude | Recording | Learning) -> dict[str, Any]:
@@ -120,47 +157,9 @@ def _facts(thing: Attitude | Recording | Learning) -> dict[str, str]:
     return facts
 
 
-def _tables(thing: Attitude | Recording | Learning) -> Iterator[Any]:
-    """Arrow tables of a block of rows each; at least one."""
-    for start in range(0, max(len(thing), 1), _BLOCK):
-        yield arrow.table(_columns(thing[start : start + _BLOCK]))
-
-
-def _parquet(thing: Attitude | Recording | Learning, file: BinaryIO) -> None:
-    from pyarrow import parquet
-
-    writer = None
-    facts = _facts(thing)
-    how: dict[str, Any] = {"compression": "zstd", "use_dictionary": False, "write_page_checksum": True}
-    names = list(_columns(thing))
-    for table in _tables(thing):
-        table = table.select(names).replace_schema_metadata(facts)
-        writer = writer or parquet.ParquetWriter(file, table.schema, **how)
-        writer.write_table(table)
-    if writer is not None:
-        writer.close()
-
-
-def _csv(thing: Attitude | Recording | Learning, file: BinaryIO) -> None:
-    names = list(_columns(thing))
-    file.write(_comments(_facts(thing)) + (",".join(names) + "\n").encode())
-    for table in _tables(thing):
-        _rows(table.select(names), file, ",")
-
-
-def _tum(attitude: Attitude, file: BinaryIO) -> None:
-    known = np.isfinite(attitude.quat).all(axis=1) & np.isfinite(attitude.time)
-    kept = attitude[known]
-    file.write(_comments(attitude.metadata()))
-    if len(kept) < len(attitude):
-        left_out = len(attitude) - len(kept)
-        file.write(f"# {left_out} of {len(attitude)} rows have no attitude and are left out\n".encode())
-    file.write(f"# {' '.join(TUM)}\n".encode())
-    for start in range(0, len(kept), _BLOCK):
-        block = kept[start : start + _BLOCK]
-        zero = np.zeros(len(block))
-        columns = [block.time, zero, zero, zero, *block.quat_xyzw.T]
-        _rows(arrow.table(dict(zip(TUM, columns, strict=True))), file, " ")
+def _tum(attitude: Attitude) -> dict[str, Any]:
+    zero = np.zeros(len(attitude))
+    return dict(zip(TUM, [attitude.time, zero, zero, zero, *attitude.quat_xyzw.T], strict=True))
 
 
 def _npz(recording: Recording, file: BinaryIO) -> None:
@@ -171,18 +170,3 @@ def _npz(recording: Recording, file: BinaryIO) -> None:
         arrays["moving"] = recording.moving
     arrays[FACTS] = np.array(json.dumps(_facts(recording)))
     np.savez(file, **arrays)
-
-
-def _rows(table: Any, file: BinaryIO, delimiter: str) -> None:
-    from pyarrow import csv
-
-    csv.write_csv(table, file, csv.WriteOptions(include_header=False, delimiter=delimiter, quoting_style="none"))
-
-
-def _comments(facts: dict[str, str]) -> bytes:
-    return "".join(f"# {key}: {_one_line(value)}\n" for key, value in facts.items()).encode()
-
-
-def _one_line(value: str) -> str:
-    """*value*, or its JSON where it would not survive as the rest of a line."""
-    return value if value.isprintable() and value == value.strip() and value[:1] != '"' else json.dumps(value)
