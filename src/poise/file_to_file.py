@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any, Literal, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from poise.data.attitude import Attitude, HeadingReference
 from poise.data.recording import Recording
@@ -61,7 +60,8 @@ def estimate_file(
     *,
     format: Literal["parquet", "csv", "tum"] | None = None,
     frame: Literal["enu", "ned", "nwu"] = "enu",
-    remap: str | ArrayLike | None = None,
+    correct: Callable[[Recording], Recording] | None = None,
+    corrected_by: str = "",
     heading_reference: HeadingReference | None = None,
     accounts: Mapping[str, Account] | None = None,
     progress: Callable[[int], None] | None = None,
@@ -71,7 +71,8 @@ def estimate_file(
 
     The file is, byte for byte, what :func:`write` makes of :func:`estimate` on the whole recording. Where a run is killed
     or cannot go on (a full disk), what it wrote stays in ``TARGET.partial``, and the same call goes on from there, to the
-    same bytes. *remap* as in :meth:`Recording.remap`; *heading_reference* replaces "magnetic", where the method was told
+    same bytes. *correct* is done to every chunk, row by row (:meth:`Recording.remap`), and *corrected_by* names it, so that a
+    run does not go on from one that was corrected otherwise; *heading_reference* replaces "magnetic", where the method was told
     the declination; *accounts* see all rows pass; *options* are those of :class:`Stream`.
 
     Raises :class:`FormatError` where a row cannot be read or the file cannot be written.
@@ -83,8 +84,8 @@ def estimate_file(
             f"{target}: {kind or target.suffix or 'no extension'} cannot be written in chunks; expected {', '.join(KINDS)}"
         )
     run = _Run(chunks, Stream(at_gravity(method, chunks.empty.gravity), **options), dict(accounts or {}))
-    shape = _Shape(kind, frame, remap, heading_reference)
-    identity = _identity(run, shape, options)
+    shape = _Shape(kind, frame, heading_reference)
+    identity = _identity(run, shape, corrected_by, options)
     with partial(target) as place:
         found = place.load(identity)
         if found is not None:
@@ -93,7 +94,7 @@ def estimate_file(
         try:
             body = writing.body(kind, place.rows, place.index, writing.columns(kind, shape.attitude(run.told())))
             saved = time.monotonic()
-            for recording, attitude in run.pairs(shape):
+            for recording, attitude in run.pairs(shape, correct):
                 for table in writing.tables(kind, attitude):
                     body.add(table)
                 run.count(recording, attitude)
@@ -122,11 +123,7 @@ class _Shape:
 
     kind: str
     frame: Literal["enu", "ned", "nwu"]
-    remap: str | ArrayLike | None
     heading: HeadingReference | None
-
-    def recording(self, recording: Recording) -> Recording:
-        return recording if self.remap is None else recording.remap(self.remap)
 
     def attitude(self, attitude: Attitude) -> Attitude:
         if self.heading is not None and attitude.heading_reference == "magnetic":
@@ -141,9 +138,11 @@ class _Run:
         self.chunks, self.stream, self.accounts = chunks, stream, accounts
         self.counts = {"rows": 0, "valid": 0, "unknown": 0}
 
-    def pairs(self, shape: _Shape) -> Iterator[tuple[Recording, Attitude]]:
+    def pairs(
+        self, shape: _Shape, correct: Callable[[Recording], Recording] | None
+    ) -> Iterator[tuple[Recording, Attitude]]:
         for chunk in self.chunks:
-            recording = shape.recording(chunk)
+            recording = chunk if correct is None else correct(chunk)
             yield recording, shape.attitude(feed(self.stream, recording))
 
     def told(self) -> Attitude:
@@ -170,11 +169,11 @@ class _Run:
             account.restore(own)
 
 
-def _identity(run: _Run, shape: _Shape, options: Mapping[str, Any]) -> str:
+def _identity(run: _Run, shape: _Shape, corrected_by: str, options: Mapping[str, Any]) -> str:
     """What must be the same for a run to go on from another's rows."""
     chunks, stream = run.chunks, run.stream
     told = {name: repr(value) for name, value in sorted(options.items()) if name != "start"}
     start = repr(stream._start)
     read = replace(chunks.options, limits=Limits())
     parts = [__version__, chunks.source, chunks.source_hash, repr(read), chunks.rows, stream.identity, told, start]
-    return json.dumps([*parts, repr(shape), sorted(run.accounts)])
+    return json.dumps([*parts, repr(shape), corrected_by, sorted(run.accounts)])

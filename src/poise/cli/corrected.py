@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from poise.data.corrections import Corrections
     from poise.data.recording import Recording
     from poise.doctor import Diagnosis
+    from poise.formats import Sniffed
 
 _SENSORS = ("gyr", "acc", "mag")
 _TABLES = {"units": ("time", *_SENSORS), "remap": ("all", *_SENSORS), "delay": ("acc", "mag")}
@@ -27,14 +28,21 @@ def read(reading: Reading, path: Path) -> Recording:
 
     Raises :class:`RecordingError`, with what repairs it, where units or axes are surely wrong, unless it is forced.
     """
-    from poise.doctor import diagnose
     from poise.formats import examine
 
     reading = with_profile(reading)
     recording, sniffed = examine(path, **reading.as_arguments())
     recording = applied(reading, recording)
+    check(reading, recording, sniffed)
+    return recording
+
+
+def check(reading: Reading, recording: Recording, sniffed: Sniffed) -> None:
+    """Raise :class:`RecordingError` where units or axes of what *reading* gave are surely wrong, unless it is forced."""
+    from poise.doctor import diagnose
+
     if reading.force:
-        return recording
+        return
     read_as = {name: facts.unit for name, facts in sniffed.sensors.items()}
     found = diagnose(recording, thorough=False, read_as=read_as)
     if wrong := [f for f in found.found("sure") if f.name != "samples"]:
@@ -42,7 +50,6 @@ def read(reading: Reading, path: Path) -> Recording:
         fix = options(repaired(reading, found)) if found.repairs and all(f.decided for f in wrong) else ""
         cure = f"say {fix}" if fix else "poise doctor shows what is known"
         raise RecordingError(f"{told}; {cure}, or go on with --force")
-    return recording
 
 
 def applied(reading: Reading, recording: Recording) -> Recording:

@@ -106,10 +106,12 @@ def estimate(
 
             tell("reading", 0.0)
             kind = format or outputs[file].suffix.lower().lstrip(".").replace("txt", "tum")
-            if long.suits(file, reading, running, kind):
+            if file not in tables and long.suits(file, reading, running, kind):
                 for place in filter(None, (outputs[file], pictures.get(file))):
                     make_room(place)
-                return long.estimate(file, outputs[file], kind, frame, pictures.get(file), reading, running, tell)
+                result = long.estimate(file, outputs[file], kind, frame, pictures.get(file), reading, running, tell)
+                result["doubts"] = running.doubts(result["learned"])
+                return result | {"learned_over_time": None} | _keep(result["learned"], kept.get(file))
             recording = reading.read(file)
             tell("estimating (a first run compiles the method)", 0.2)
             n = max(len(recording), 1)
@@ -119,8 +121,9 @@ def estimate(
                 learning=learned_every if tables else None,
             )
             result = _finished(file, recording, attitude.to(frame), outputs[file], format, pictures.get(file), tell)
-            result["doubts"] = running.doubts(attitude)
-            return result | _keep(attitude, recording, tables.get(file), kept.get(file))
+            result["doubts"] = running.doubts(attitude.learned)
+            over_time = _draw_or_write(attitude, recording, tables.get(file))
+            return result | over_time | _keep(attitude.learned, kept.get(file))
 
         running.warm()
         results, refused = show.each(files, work)
@@ -177,22 +180,29 @@ def _finished(
     }
 
 
-def _keep(attitude: Attitude, recording: Recording, over_time: Path | None, kept: Path | None) -> dict[str, Any]:
-    """Write what was learned; where it went."""
+def _keep(learned: Any, kept: Path | None) -> dict[str, Any]:
+    """Write what was learned by the end; where it went."""
     from poise.formats import write
 
-    for place in filter(None, (over_time, kept)):
-        make_room(place)
-    if kept and attitude.learned is not None:
-        write(attitude.learned, kept)
+    if kept and learned is not None:
+        make_room(kept)
+        write(learned, kept)
+    return {"learned_saved": kept and str(kept)}
+
+
+def _draw_or_write(attitude: Attitude, recording: Recording, over_time: Path | None) -> dict[str, Any]:
+    """What was learned over time as a picture or a table; where it went."""
+    from poise.formats import write
+
     if over_time and attitude.learning is not None:
+        make_room(over_time)
         if over_time.suffix.lower() in PICTURES:
             from poise.plots import learning_figure, save_figure
 
             save_figure(learning_figure(attitude.learning, title=recording.name), over_time)
         else:
             write(attitude.learning, over_time)
-    return {"learned_over_time": over_time and str(over_time), "learned_saved": kept and str(kept)}
+    return {"learned_over_time": over_time and str(over_time)}
 
 
 def _apart(*places: Mapping[Path, Path]) -> None:

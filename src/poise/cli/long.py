@@ -8,12 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from poise.cli import corrected
 from poise.cli.options import Reading, Running
 from poise.data.attitude import Attitude
 from poise.data.recording import Recording
+from poise.errors import FormatError, RecordingError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from poise.formats.chunks import Chunks
 
 ROWS = 65_536  # of a chunk, and of a row group in Parquet
 _SHOWN = 65_536  # rows of a picture, at least half as many
@@ -23,8 +27,8 @@ def suits(file: Path, reading: Reading, running: Running, kind: str) -> bool:
     """Whether *file* is estimated in chunks: it is large, and neither its rows nor their attitudes are needed at once."""
     from poise.file_to_file import KINDS
 
-    if running.offline or kind not in KINDS:
-        return False
+    if running.offline or kind not in KINDS or corrected.with_profile(reading).delay:
+        return False  # a delay moves samples from one chunk to another
     try:
         return file.stat().st_size > reading.limits().whole
     except OSError:
@@ -46,20 +50,26 @@ def estimate(
     from poise.file_to_file import Account, estimate_file
     from poise.formats import read_chunks
 
+    reading = corrected.with_profile(reading)
     chunks = read_chunks(file, ROWS, **reading.as_arguments())
     errors, shown = ErrorSums(), Thinned(_SHOWN)
-    accounts: dict[str, Account] = {"errors": errors} | ({"shown": shown} if picture else {})
+    accounts: dict[str, Account] = {"checked": FirstChecked(reading, chunks), "errors": errors}
+    if picture:
+        accounts["shown"] = shown
     written = estimate_file(
         chunks,
         target,
         running.build(),
         format=kind,
         frame=frame,
-        remap=reading.remap,
+        correct=lambda recording: corrected.applied(reading, recording),
+        corrected_by=reading.remap or "",
         heading_reference="true" if running.told_declination else None,
         accounts=accounts,
         progress=lambda rows: tell(f"estimating, {rows:,} rows done", 0.5),
         rest_bias=running.rest_bias,
+        start_from=running.before(),
+        slew=running.slew_per_second,
     )
     facts, notes = chunks.sniffed, list(chunks.notes)
     if written.resumed:
@@ -88,6 +98,30 @@ def estimate(
         "learned": written.learned,
         "notes": notes,
     }
+
+
+class FirstChecked:
+    """Refuses a file whose first chunk has units or axes that are surely wrong, as :func:`corrected.read` does."""
+
+    def __init__(self, reading: Reading, chunks: Chunks) -> None:
+        self._reading, self._chunks, self._done = reading, chunks, False
+
+    def add(self, recording: Recording, attitude: Attitude) -> None:
+        """The next rows."""
+        if not self._done:
+            try:
+                corrected.check(self._reading, recording, self._chunks.sniffed)
+            except RecordingError as error:
+                raise FormatError(f"{self._chunks.source}: {error}") from None
+        self._done = True
+
+    def state(self) -> dict[str, NDArray[Any]]:
+        """Whether it was done."""
+        return {"done": np.array(self._done)}
+
+    def restore(self, state: dict[str, NDArray[Any]]) -> None:
+        """Go on after it was done, or not."""
+        self._done = bool(state["done"])
 
 
 class ErrorSums:

@@ -207,6 +207,11 @@ class Running:
     def told_declination(self) -> bool:
         return self.declination is not None or self.place is not None
 
+    @property
+    def slew_per_second(self) -> float | None:
+        """--slew in rad/s."""
+        return None if self.slew is None else math.radians(self.slew)
+
     def estimate(
         self,
         recording: Recording,
@@ -222,8 +227,9 @@ class Running:
 
             attitude = smooth(recording, self.build(), start, **known)
         else:
-            slew = None if self.slew is None else math.radians(self.slew)
-            attitude = estimate(self.build(), recording, start, rest_bias=self.rest_bias, slew=slew, **known)
+            attitude = estimate(
+                self.build(), recording, start, rest_bias=self.rest_bias, slew=self.slew_per_second, **known
+            )
         if self.told_declination and attitude.heading_reference == "magnetic":  # a declination of zero is a declination
             attitude = replace(attitude, heading_reference="true")
         return attitude
@@ -243,12 +249,12 @@ class Running:
             usage(f"--start-from {self.start_from}: {text}")
         return found
 
-    def doubts(self, attitude: Attitude) -> list[str]:
-        """What speaks against --start-from being of the sensor of *attitude*."""
+    def doubts(self, learned: Any) -> list[str]:
+        """What speaks against --start-from being of the sensor of which *learned* was found out."""
         before = self.before()
-        if before is None or attitude.learned is None:
+        if before is None or learned is None:
             return []
-        found: list[str] = self.build().doubts(before, attitude.learned)
+        found: list[str] = self.build().doubts(before, learned)
         return found
 
     def warm(self) -> None:
