@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from poise.data.attitude import Attitude
+from poise.data.flags import KNOWN
 from poise.data.learned import Learned
 from poise.data.recording import Recording
 from poise.errors import MethodError, RecordingError
@@ -24,8 +25,8 @@ from poise.math.vectors import Vec3
 Indices = NDArray[np.int64]
 
 _PART = 8192  # rows of a recording at a time
-_INDEX = np.uint32(20)  # from this bit of the flags on the log's entries are counted
-_KNOWN = np.uint32(0xFFFFF)  # the flags below it
+_INDEX = np.uint32(28)  # from this bit of the flags on the log's entries are counted
+_KNOWN = np.uint32(KNOWN)  # the flags below it
 
 
 def smooth(
@@ -82,8 +83,8 @@ def _taken(stream: Stream) -> Floats:
 
 
 def _unwrapped(count: NDArray[np.uint32]) -> Indices:
-    """Entries finished up to each row, from their number modulo 4096; a row ends one at most."""
-    steps: Indices = np.mod(np.diff(count.astype(np.int64), prepend=0), 4096)
+    """Entries finished up to each row, from their number modulo 16; a row ends one at most."""
+    steps: Indices = np.mod(np.diff(count.astype(np.int64), prepend=0), 16)
     return np.cumsum(steps)
 
 
