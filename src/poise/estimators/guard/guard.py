@@ -104,9 +104,9 @@ class Guard(NamedTuple):
     ] = True
     gap: Annotated[float, "s", "a longer step between stamps is flagged"] = 0.2
     longest_loss: Annotated[float, "s", "without rotation for longer, the attitude is unknown"] = 1.0
-    acc_loss: Annotated[float, "s", "without accelerometer for longer, samples are flagged"] = 0.5
+    acc_loss: Annotated[float, "s", "without accelerometer for longer, samples are flagged"] = 0.2
     mag_loss: Annotated[float, "s", "without a magnetometer that was there before for longer, samples are flagged"] = (
-        0.8
+        0.2
     )
     stuck_time: Annotated[float, "s", "a sensor that was lively and repeats a value for longer, hangs"] = 0.2
     astray_angle: Annotated[float, "rad", "a tilt further from gravity, at rest, is wrong", (0.34, 3.2)] = radians(20.0)
@@ -156,7 +156,7 @@ class Guard(NamedTuple):
                 and (
                     usual(mag, sample.mag, by_mag, _mag_limits(self, mag.value)) and (state.aligned and state.mag_seen)
                     if has_mag
-                    else not present(sample.mag) and (silent <= self.mag_loss or not state.mag_seen)
+                    else not present(sample.mag) and (silent <= max(self.mag_loss, 3.0 * mag.every) or not state.mag_seen)
                 )
             ):
                 still = within(sample.gyr, _REST_RATE)
@@ -236,25 +236,31 @@ def _careful(guard: Guard, state: State, sample: Sample) -> State:
     mag_absent = 0.0 if has_mag else mag_age
     mag_seen = state.mag_seen or has_mag
     flags |= 0 if has_gyr else GYR_MISSING
-    flags |= ACC_MISSING if acc_absent > guard.acc_loss else 0
-    flags |= MAG_MISSING if mag_seen and guard.follows_mag and mag_absent > guard.mag_loss else 0
+    flags |= ACC_MISSING if acc_absent > max(guard.acc_loss, 3.0 * acc.every) else 0
+    silent = mag_absent > max(guard.mag_loss, 3.0 * mag.every)
+    flags |= MAG_MISSING if mag_seen and guard.follows_mag and silent else 0
     rate = gyr.value
     clean = Sample(
-        dt, rate, sample.acc if has_acc else ABSENT, sample.mag if has_mag else ABSENT, sample.acc_age, sample.mag_age,
+        dt, _over_loss(guard, state, rate, dt, usual_step) if has_gyr else rate,
+        sample.acc if has_acc else ABSENT, sample.mag if has_mag else ABSENT, sample.acc_age, sample.mag_age,
         min(acc_age, guard.gap), min(mag_age, guard.gap),
     )  # fmt: skip
 
     # How far it may have turned unmeasured
-    doubt = state.doubt * (1.0 - dt / (guard.settle_time + dt)) if has_gyr and has_acc else state.doubt
+    doubt, lost = state.doubt, state.lost
+    hidden = 0.0  # rad
     if not has_gyr or flags & GAP != 0:
-        hidden = dt + (state.gyr.same if gyr_verdict == STUCK and state.gyr_absent == 0.0 else 0.0)
-        doubt += 0.5 * (norm(rate) + 0.5) * hidden  # the rate goes on about half as wrong as it is large
-        lost = state.lost or gyr_absent > guard.longest_loss or dt > guard.longest_loss or doubt > guard.lost_doubt
-    else:
-        doubt += 0.25 * gyr.most * dt if gyr_verdict == CLIPPED else 0.0
-        lost = state.lost
+        stuck = state.gyr.same if gyr_verdict == STUCK and state.gyr_absent == 0.0 else 0.0
+        hidden = 0.5 * (norm(rate) + 0.5) * (dt + stuck)  # a rate goes on about half as wrong as it is large
+        lost = lost or gyr_absent > guard.longest_loss or dt > guard.longest_loss
+    elif gyr_verdict == CLIPPED:
+        hidden = 0.25 * gyr.most * dt
+    if hidden > 0.0:
+        doubt = min(doubt + hidden, pi)
+        lost = lost or doubt > guard.lost_doubt
+    elif doubt > 0.0 and has_acc:
+        doubt = doubt * guard.settle_time / (guard.settle_time + dt) if doubt > _SURE else 0.0
     lost = lost or state.pace.waiting > guard.longest_disorder and usual_step == 0.0
-    doubt = min(doubt, pi) if doubt > _SURE else 0.0
     usable = has_acc and has_gyr
 
     if state.started and not lost and (state.aligned or not has_mag or not guard.follows_mag):
@@ -316,6 +322,20 @@ def _held(guard: Guard, state: State, pace: Pace, flags: int) -> State:
 
 
 @compiled
+def _over_loss(guard: Guard, state: State, rate: Vec3, dt: float, usual_step: float) -> Vec3:
+    """The mean rate of a step in which rows were lost: between two samples the rate goes straight from one to the other.
+
+    Where rows were there and the gyroscope's samples were not, the last rate was taken for them: made good here.
+    """
+    before = state.gyr.value
+    if state.gyr_absent > 0.0:
+        return rate + (0.5 * state.gyr_absent / dt) * (rate - before) if state.gyr_absent <= 0.25 * guard.gap else rate
+    if usual_step > 0.0 and 1.5 * usual_step < dt <= guard.gap:
+        return rate + (0.5 * (dt - usual_step) / dt) * (before - rate)
+    return rate
+
+
+@compiled
 def _told(verdict: int, spike: int, stuck: int, clipped: int) -> int:
     if verdict == SPIKE:
         return spike
@@ -346,7 +366,8 @@ def _mean(levelling: Levelling, sample: Sample) -> Sample:
     back = conjugate(levelling.turn)
     acc = rotate(back, levelling.force / levelling.time)
     mag = rotate(back, levelling.field / levelling.time) if dot(levelling.field, levelling.field) > 0.0 else sample.mag
-    return with_sensors(sample, sample.gyr, acc if dot(acc, acc) > 1e-6 else sample.acc, mag)
+    acc = acc if dot(acc, acc) > 1e-6 else sample.acc
+    return Sample(sample.dt, sample.gyr, acc, mag, 0.0, 0.0, levelling.time, levelling.time)
 
 
 @compiled

@@ -9,7 +9,7 @@ from poise.math.vectors import ABSENT, Vec3, dot, within
 
 FINE, SPIKE, STUCK, CLIPPED = 0, 1, 2, 3
 _MEAN_TIME = 0.3  # s over which the usual change from sample to sample is averaged
-_JUMP, _STIR = 64.0, 9.0  # squares: 8 times the usual change is a jump, 3 times it shows that something happened
+_JUMP, _STIR = 64.0, 16.0  # squares: 8 times the usual change is a jump, 4 times it shows that something happened
 _TOLERANCE = 1e-4  # of the range: one end may lie a quantum further out than the other
 _SLOWEST = 0.1  # s between samples: at a slower sensor a jump says nothing
 _SHORT = 0.05  # s: no repetition to look at
@@ -26,6 +26,7 @@ class Channel(NamedTuple):
     same: float  # s since the value changed
     longest: float  # s that it has been the same before, by nature: a logger may repeat a slower sensor
     lively: float  # s of changing samples, those in motion counted up to 1: a coarse sensor is lively in motion only
+    every: float  # s between its samples, as a rule
     rejected: int  # spikes in a row
 
 
@@ -49,7 +50,7 @@ class Judged(NamedTuple):
 
 @compiled
 def fresh(value: Vec3, limits: Limits) -> Channel:
-    return Channel(value, 0.0, limits.range, 0, 0.0, 0.0, 0.0, 0)
+    return Channel(value, 0.0, limits.range, 0, 0.0, 0.0, 0.0, 0.0, 0)
 
 
 @compiled
@@ -73,15 +74,16 @@ def usual(channel: Channel, value: Vec3, changed: float, limits: Limits) -> bool
 
 @compiled
 def taken(channel: Channel, value: Vec3, changed: float, dt: float, still: bool) -> Channel:
-    """The channel after a sample that is a measurement."""
+    """The channel after a sample that is a measurement, *dt* s after the last one."""
     mean = channel.change + dt / (_MEAN_TIME + dt) * (changed - channel.change)
+    every = channel.every + 0.1 * (min(dt, 2.0 * channel.every + 0.05) - channel.every)
     if changed == 0.0:
         return Channel(
-            value, mean, channel.most, channel.equals, channel.same + dt, channel.longest, channel.lively, 0
+            value, mean, channel.most, channel.equals, channel.same + dt, channel.longest, channel.lively, every, 0
         )  # fmt: skip
     longest = max(channel.longest, channel.same)
     lively = channel.lively + dt if channel.lively < (2.0 if still else 1.0) else channel.lively
-    return Channel(value, mean, channel.most, channel.equals, 0.0, longest, lively, 0)
+    return Channel(value, mean, channel.most, channel.equals, 0.0, longest, lively, every, 0)
 
 
 @compiled
@@ -111,7 +113,7 @@ def judged(
     changed = change(c, value)
     c = taken(c, value, changed, age, still)
     needed = _IN_MOTION if moving else _AT_REST
-    if c.same > max(least, 4.0 * c.longest, 2.5 * age) and c.lively >= needed:
+    if c.same > max(least, 4.0 * c.longest, 3.0 * c.every) and c.lively >= needed:
         return Judged(ABSENT, c, STUCK)
     if changed > 0.0 and channel.same > max(least, 4.0 * channel.longest) and channel.lively >= _IN_MOTION:
         c = _forgiven(c, channel.longest)  # it hung: that is not its nature
@@ -126,14 +128,14 @@ def judged(
 
 @compiled
 def _rejected(c: Channel) -> Channel:
-    return Channel(c.value, c.change, c.most, c.equals, c.same, c.longest, c.lively, c.rejected + 1)
+    return Channel(c.value, c.change, c.most, c.equals, c.same, c.longest, c.lively, c.every, c.rejected + 1)
 
 
 @compiled
 def _forgiven(c: Channel, longest: float) -> Channel:
-    return Channel(c.value, c.change, c.most, c.equals, c.same, longest, c.lively, c.rejected)
+    return Channel(c.value, c.change, c.most, c.equals, c.same, longest, c.lively, c.every, c.rejected)
 
 
 @compiled
 def _widened(c: Channel, most: float, equals: int) -> Channel:
-    return Channel(c.value, c.change, most, equals, c.same, c.longest, c.lively, c.rejected)
+    return Channel(c.value, c.change, most, equals, c.same, c.longest, c.lively, c.every, c.rejected)

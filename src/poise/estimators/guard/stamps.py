@@ -10,6 +10,7 @@ from poise.math.compiled import compiled
 SHORTEST = 1e-7  # s: a noise density over no time at all would overflow
 _LONGEST = 1e12
 _SHARE = 0.02  # of a new step in the usual one: that of the last 50 rows or so
+_MOST = 0.1  # of the usual step: a longer one counts as that much longer, for a lost row is not a slower sensor
 
 
 class Pace(NamedTuple):
@@ -32,15 +33,13 @@ class Timed(NamedTuple):
 @compiled
 def evenly(pace: Pace, dt: float, gap: float) -> bool:
     """Whether a step is an ordinary one, about the usual, and nothing is left to be paid back."""
-    return (
-        0.5 * pace.step < dt < 2.0 * pace.step and SHORTEST < dt <= gap and pace.ahead == 0.0 and pace.waiting == 0
-    )
+    return 0.5 * pace.step < dt < 1.5 * pace.step and SHORTEST < dt <= gap and pace.ahead == 0.0 and pace.waiting == 0
 
 
 @compiled
 def counted_on(pace: Pace, dt: float) -> Pace:
     """The pace after an ordinary step."""
-    return Pace(pace.step + _SHARE * (dt - pace.step), 0.0, pace.back, 0)
+    return Pace(pace.step + _SHARE * min(dt - pace.step, _MOST * pace.step), 0.0, pace.back, 0)
 
 
 @compiled
@@ -66,7 +65,8 @@ def timed(pace: Pace, dt: float, repeated: bool, gap: float) -> Timed:
     left, kept, flags = dt - pace.ahead, pace.back, 0
     mean = dt / (pace.waiting + 1.0)
     if mean <= gap:
-        usual = usual + min(_SHARE * (pace.waiting + 1.0), 1.0) * (mean - usual) if usual > 0.0 else mean
+        share = min(_SHARE * (pace.waiting + 1.0), 1.0)
+        usual = usual + share * min(mean - usual, _MOST * usual) if usual > 0.0 else mean
     if kept > 0.0 and dt > gap and 0.0 < left - kept <= gap:  # the clock is back at the time it had
         return Timed(Pace(usual, 0.0, 0.0, 0), left - kept, CLOCK_JUMP)
     ahead = 0.0
