@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, inf, pi, radians, sqrt
+from math import cos, pi, radians, sqrt
 from typing import Annotated, Any, NamedTuple
 
 from poise.data.flags import (
@@ -207,12 +207,14 @@ def _careful(guard: Guard, state: State, sample: Sample) -> State:
     still = within(gyr.value, _REST_RATE)
     gyr_limits, acc_limits, mag_limits = _gyr_limits(guard), _acc_limits(guard), _mag_limits(guard, mag.value)
     usual_step = row.pace.step
-    spike = jumped(gyr, by_gyr, gyr_age, usual_step, gyr_limits) and not stirred(acc, by_acc, acc_limits)
+    # A jump of the rate is an angular acceleration, which an accelerometer 1 cm off the axis feels
+    felt = max(0.1 * guard.gravity, 0.01 * sqrt(by_gyr) / dt)
+    spike = jumped(gyr, by_gyr, gyr_age, usual_step, gyr_limits) and not stirred(acc, by_acc, felt)
     found = judged(gyr, sample.gyr, gyr_age, spike, not still, still, guard.stuck_time, gyr_limits)
     gyr = found.channel
     has_gyr = present(found.value)
     spiked = present(sample.acc) and jumped(acc, by_acc, acc_age, usual_step, acc_limits)
-    shaken = has_gyr and stirred(state.gyr, by_gyr, gyr_limits)
+    shaken = has_gyr and stirred(state.gyr, by_gyr, _REST_RATE)
     gyr_verdict = found.verdict
     turning = _across(gyr.value, acc.value) > _REST_RATE
     found = judged(acc, sample.acc, acc_age, spiked and not shaken, turning, still, guard.stuck_time, acc_limits)
@@ -280,7 +282,7 @@ def _careful(guard: Guard, state: State, sample: Sample) -> State:
 
     # From here on the method does not step: it waits for samples to start from, or starts.
     before = output(guard.method, state.inner, clean)
-    levelling = _gathered(guard, state.levelling, clean, rate - before.bias, usable)
+    levelling = _gathered(guard, state.levelling, clean, rate - before.bias, usable and gyr_verdict != CLIPPED)
     ready = usable and (not lost or _enough(guard, levelling))
     if not ready:
         flags |= (LOST if state.started else INITIALISING) | (0 if state.aligned else HEADING_ARBITRARY)
@@ -420,17 +422,17 @@ def _with(sigma: float, doubt: float) -> float:
 @compiled
 def _gyr_limits(guard: Guard) -> Limits:
     """A jump of 3 rad/s between two samples is beyond limbs and robots; no gyroscope ends below 125 deg/s."""
-    return Limits(3.0, 0.1, 2.1, -1.0, guard.largest_gyr)
+    return Limits(3.0, 2.1, -1.0, guard.largest_gyr)
 
 
 @compiled
 def _acc_limits(guard: Guard) -> Limits:
-    """A jump of 3 g takes a blow, a stir of 0.1 g does not; no accelerometer ends below 2 g."""
-    return Limits(3.0 * guard.gravity, 0.1 * guard.gravity, 18.0, 1e-6, guard.largest_acc)
+    """A jump of 3 g takes a blow; no accelerometer ends below 2 g."""
+    return Limits(3.0 * guard.gravity, 18.0, 1e-6, guard.largest_acc)
 
 
 @compiled
 def _mag_limits(guard: Guard, last: Vec3) -> Limits:
     """Whatever its unit: a jump is as long as the field itself, and no range ends below twice that of the Earth."""
     length = norm(last)
-    return Limits(length, inf, 2.0 * length, 1e-18, guard.largest_mag)
+    return Limits(length, 2.0 * length, 1e-18, guard.largest_mag)

@@ -34,7 +34,6 @@ class Limits(NamedTuple):
     """Where a sensor's samples become doubtful, from what sensors and motions can do."""
 
     jump: float  # a smaller change is never a spike
-    stir: float  # a smaller change is no sign of a shock
     range: float  # no sensor's range is smaller: data sheets
     least: float  # square of the smallest vector that points somewhere; zeros are silence, but not a gyroscope's
     most: float  # more is no measurement of anything
@@ -94,9 +93,9 @@ def jumped(channel: Channel, changed: float, age: float, usual_step: float, limi
 
 
 @compiled
-def stirred(channel: Channel, changed: float, limits: Limits) -> bool:
-    """Whether a sample changed more than is usual: a shock shows in gyroscope and accelerometer alike."""
-    return changed > _STIR * channel.change + limits.stir * limits.stir
+def stirred(channel: Channel, changed: float, least: float) -> bool:
+    """Whether a sample changed more than is usual, and than *least*: a blow shows in gyroscope and accelerometer alike."""
+    return changed > _STIR * channel.change + least * least
 
 
 @compiled
