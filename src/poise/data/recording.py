@@ -220,7 +220,8 @@ def check_unit_of_time(time: Floats, even: bool = False) -> None:
 
     *even*: only where three steps or more are alike, so that a loss in a few live samples is not taken for a unit.
     """
-    steps = np.diff(time)
+    with np.errstate(invalid="ignore"):  # between two infinities
+        steps = np.diff(time)
     if even and not (len(steps) > 2 and steps.min() > 0.0 and steps.max() < 3.0 * steps.min()):
         return
     if np.sum(steps < 0) > max(2, 0.5 * len(steps)):

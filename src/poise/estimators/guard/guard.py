@@ -282,7 +282,7 @@ def _careful(guard: Guard, state: State, sample: Sample) -> State:
 
     # From here on the method does not step: it waits for samples to start from, or starts.
     before = output(guard.method, state.inner, clean)
-    levelling = _gathered(guard, state.levelling, clean, rate - before.bias, usable and gyr_verdict != CLIPPED)
+    levelling = _gathered(guard, state.levelling, clean, rate - before.bias, usable and hidden == 0.0)
     ready = usable and (not lost or _enough(guard, levelling))
     if not ready:
         flags |= (LOST if state.started else INITIALISING) | (0 if state.aligned else HEADING_ARBITRARY)
