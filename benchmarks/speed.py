@@ -220,7 +220,7 @@ def _estimates(made: Recording, wrapped: bool = True) -> dict[str, Run]:
 
 
 def _estimate(method: Any, made: Recording, wrapped: bool = True) -> Run:
-    return lambda: estimate(method, made, guard=wrapped, rest_bias=wrapped)
+    return lambda: estimate(method, made, guard=wrapped or None, rest_bias=wrapped)
 
 
 def _fed(loop: Loop, packets: list[Packet]) -> Run:

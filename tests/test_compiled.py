@@ -147,7 +147,7 @@ from poise.estimators.loop import advance
 module, wrapped = sys.argv[1], sys.argv[2] == "wrapped"
 method = importlib.import_module(module).Pull(gain=0.5)
 recording = poise.Recording.at_rate(100, np.full((40, 3), 0.1), np.tile([1.0, 2.0, 9.0], (40, 1)))
-attitude = poise.estimate(method, recording, guard=wrapped, rest_bias=False)
+attitude = poise.estimate(method, recording, guard=wrapped or None, rest_bias=False)
 hits = sum(advance.stats.cache_hits.values())
 print(json.dumps({"package": poise.__file__, "quat": attitude.quat[-1].tolist(), "served": hits > 0}))
 """

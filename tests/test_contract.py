@@ -167,12 +167,15 @@ def test_losses_are_flagged_and_survived(method: Any) -> None:
     assert flags[100] & Flag.GYR_MISSING
     assert flags[450] & Flag.GYR_MISSING
     assert flags[300] & Flag.GAP
-    assert flags[300] & Flag.RESET
+    assert (flags[300:400] & Flag.LOST).all(), "two seconds of samples are gathered before it starts anew"
+    reset = int(np.flatnonzero(flags & Flag.RESET)[-1])
+    assert 395 <= reset <= 415
     assert flags[400] & Flag.TIME_DISORDER
     assert flags[410] & Flag.TIME_DISORDER
     assert flags[255] & Flag.LOST, "the gyroscope was gone for over a second"
     assert not attitude.valid[255]
-    assert attitude.valid[262:].all()
+    assert not attitude.valid[262:reset].any()
+    assert attitude.valid[reset + 100 :].all(), "and has settled soon after"
     error = poise.evaluate(attitude, faulty())
     assert np.nanmax(judged(error, method)[-250:]) < np.radians(20.0)
 

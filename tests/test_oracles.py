@@ -59,7 +59,7 @@ def every(full: poise.Recording, acc: int = 1, mag: int = 1) -> poise.Recording:
 
 def disagreement(method: Any, data: poise.Recording) -> float:
     """The largest angle, rad, between package and oracle, or difference in what else the oracle says (rad, rad/s)."""
-    ours = poise.estimate(method, data, guard=False, rest_bias=False)
+    ours = poise.estimate(method, data, guard=None, rest_bias=False)
     theirs = ORACLES[type(method)](data.time, data.gyr, data.acc, data.mag, **method._asdict())
     assert np.isfinite(ours.quat).all() and np.isfinite(theirs.quat).all()
     apart = [angle_between(ours.quat, theirs.quat).max()]

@@ -169,9 +169,11 @@ def test_a_restart_keeps_what_was_learned() -> None:
     stream = poise.Stream(FLAGSHIP)
     stream.update(Packet(time[:at], clean.gyr[:at], clean.acc[:at], clean.mag[:at]))
     before = stream.learned
-    row = stream.update(
-        Packet(time[at : at + 1], clean.gyr[at : at + 1], clean.acc[at : at + 1], clean.mag[at : at + 1])
-    )
+    for i in range(at, len(clean)):
+        row = stream.update(Packet(float(time[i]), *(values[i] for values in (clean.gyr, clean.acc, clean.mag))))
+        if row.flags[0] & Flag.RESET:
+            break
+        assert row.flags[0] & Flag.LOST
     assert row.flags[0] & Flag.RESET
     assert np.degrees(row.sigma[0, 2]) > 50.0  # the attitude is unsure again
     assert before is not None

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from poise.data import arrow, axes
-from poise.data.flags import GAP, LOST, SENTENCES, Flag, valid
+from poise.data.flags import GAP, LOST, RESET, SENTENCES, Flag, valid
 from poise.errors import RecordingError
 from poise.math import arrays
 
@@ -48,6 +48,16 @@ class Reason(NamedTuple):
 
     def __str__(self) -> str:
         return f"{self.start:.2f}-{self.end:.2f} s ({self.samples} samples): {self.sentence}"
+
+
+class Reset(NamedTuple):
+    """A row at which the method was started anew."""
+
+    row: int
+    time: float
+    """s"""
+    delta: tuple[float, float, float]
+    """rad: the rotation vector, about the frame's axes, from the attitude of the row before to this one's"""
 
 
 @dataclass(frozen=True)
@@ -364,3 +374,19 @@ class Attitude:
                     start, end = float(clock[stretch[0]]), float(clock[stretch[-1]])
                     found.append(Reason(flag, start, end, len(stretch), SENTENCES[flag]))
         return sorted(found, key=lambda reason: (reason.start, reason.flag))
+
+    def resets(self) -> list[Reset]:
+        """Every row at which the method was started anew, and by how much that turned the attitude.
+
+        Whoever integrates or controls on the attitude takes the turn out instead of following it.
+        """
+        rows = np.flatnonzero(self.flags & np.uint32(RESET))
+        known = np.isfinite(self.quat[:, 0])
+        before = np.maximum.accumulate(np.where(known, np.arange(len(self)), -1))
+        rows = rows[(rows > 0) & known[rows]]
+        rows = rows[before[rows - 1] >= 0]
+        turns = arrays.rotation_vector(arrays.multiply(self.quat[rows], arrays.conjugate(self.quat[before[rows - 1]])))
+        return [
+            Reset(int(row), float(self.time[row]), (float(x), float(y), float(z)))
+            for row, (x, y, z) in zip(rows, turns, strict=True)
+        ]

@@ -27,14 +27,25 @@ class Flag(IntFlag):
     START_IN_MOTION = 1 << 13
     MAG_DISTURBED = 1 << 14
     GYR_CLIPPED = 1 << 15
+    GYR_IGNORED = 1 << 16
+    ACC_IGNORED = 1 << 17
+    MAG_IGNORED = 1 << 18
+    STUCK_GYR = 1 << 19
+    STUCK_ACC = 1 << 20
+    STUCK_MAG = 1 << 21
+    ACC_CLIPPED = 1 << 22
+    MAG_CLIPPED = 1 << 23
+    CLOCK_JUMP = 1 << 24
+    JITTER = 1 << 25
+    UNSETTLED = 1 << 26
 
 
 SENTENCES: dict[Flag, str] = {
     Flag.INITIALISING: "no attitude yet: no usable accelerometer sample so far",
-    Flag.GYR_MISSING: "no gyroscope sample: predicted with the last rate",
+    Flag.GYR_MISSING: "no usable gyroscope sample: predicted with the last rate",
     Flag.ACC_MISSING: "no accelerometer sample for a while: the inclination rests on the gyroscope alone",
     Flag.MAG_MISSING: "no magnetometer sample for a while: the heading rests on the gyroscope alone",
-    Flag.TIME_DISORDER: "time stamp missing or not after the one before: nothing predicted",
+    Flag.TIME_DISORDER: "time stamp missing or not after the one before: taken for the usual interval, or held",
     Flag.GAP: "gap in the time stamps: the motion inside it is unknown",
     Flag.LOST: "the rotation was not measured for too long: the attitude is unknown",
     Flag.RESET: "started anew from the accelerometer and magnetometer, with the bias it had",
@@ -45,11 +56,24 @@ SENTENCES: dict[Flag, str] = {
     Flag.START_IN_MOTION: "started in motion: the angles of one sample, which may be far off",
     Flag.MAG_DISTURBED: "the field here differs from what was learned of it: the magnetometer counts less",
     Flag.GYR_CLIPPED: "the rate is at the end of the gyroscope's range: the turn is larger than measured",
+    Flag.GYR_IGNORED: "a spike in the gyroscope, which nothing else shows: left out",
+    Flag.ACC_IGNORED: "a spike in the accelerometer, which nothing else shows: left out",
+    Flag.MAG_IGNORED: "a spike in the magnetometer: left out",
+    Flag.STUCK_GYR: "the gyroscope repeats one value: taken for absent",
+    Flag.STUCK_ACC: "the accelerometer repeats one value: taken for absent",
+    Flag.STUCK_MAG: "the magnetometer repeats one value: taken for absent",
+    Flag.ACC_CLIPPED: "the accelerometer is at the end of its range: left out",
+    Flag.MAG_CLIPPED: "the magnetometer is at the end of its range: left out",
+    Flag.CLOCK_JUMP: "the clock was set: the usual interval is taken",
+    Flag.JITTER: "a step between stamps of less than half or more than twice the usual",
+    Flag.UNSETTLED: "after rotation that was not measured, or a start in motion: the attitude may be off, and is settling",
     Flag.CORRECTION_FORCED: "the correction stood out from its history: the preset gain was forced",
 }
 
 # An attitude that carries one of these is not to be acted on; everything else is a remark.
-INVALID: int = int(Flag.INITIALISING | Flag.LOST | Flag.SILENT)
+INVALID: int = int(Flag.INITIALISING | Flag.LOST | Flag.SILENT | Flag.UNSETTLED)
+# Bits 28 to 31 never leave the package: a smoother counts its log in them.
+KNOWN: int = (1 << 28) - 1
 
 # Kernels see plain integers.
 INITIALISING = int(Flag.INITIALISING)
@@ -68,6 +92,17 @@ HEADING_ARBITRARY = int(Flag.HEADING_ARBITRARY)
 START_IN_MOTION = int(Flag.START_IN_MOTION)
 MAG_DISTURBED = int(Flag.MAG_DISTURBED)
 GYR_CLIPPED = int(Flag.GYR_CLIPPED)
+GYR_IGNORED = int(Flag.GYR_IGNORED)
+ACC_IGNORED = int(Flag.ACC_IGNORED)
+MAG_IGNORED = int(Flag.MAG_IGNORED)
+STUCK_GYR = int(Flag.STUCK_GYR)
+STUCK_ACC = int(Flag.STUCK_ACC)
+STUCK_MAG = int(Flag.STUCK_MAG)
+ACC_CLIPPED = int(Flag.ACC_CLIPPED)
+MAG_CLIPPED = int(Flag.MAG_CLIPPED)
+CLOCK_JUMP = int(Flag.CLOCK_JUMP)
+JITTER = int(Flag.JITTER)
+UNSETTLED = int(Flag.UNSETTLED)
 
 
 def valid(flags: NDArray[np.uint32]) -> NDArray[np.bool_]:

@@ -15,7 +15,7 @@ from poise.data.attitude import COLUMNS, QUAT, Attitude, HeadingReference, Prove
 from poise.data.flags import SILENT
 from poise.data.learned import Learned, Learning
 from poise.data.packet import Packet
-from poise.data.recording import STANDARD_GRAVITY, Recording, samples
+from poise.data.recording import STANDARD_GRAVITY, Recording, check_unit_of_time, samples
 from poise.errors import MethodError, RecordingError, StateError
 from poise.estimators.guard import Guard
 from poise.estimators.loop import (
@@ -23,10 +23,13 @@ from poise.estimators.loop import (
     ACC_AGE,
     ASIDE,
     CLOCK,
+    DELTA,
     FIRST,
     GYR,
     LAST,
     MAG,
+    RESET_AT,
+    RESETS,
     ROW_COLUMNS,
     TIME,
     TURN,
@@ -60,8 +63,8 @@ class Stream:
 
     *start* is an attitude to start at (an :class:`Attitude`, whose first known row counts, or w x y z, body to ENU); by
     default the first usable accelerometer and magnetometer samples decide. *bias* (rad/s) is the gyroscope's, where it
-    is known. *guard* and *rest_bias* switch the wrappers off; a method given inside a ``Guard`` is taken as it is. Without
-    the guard, stamps must rise and samples be finite: a method divides by the time between them.
+    is known. ``guard=None`` and ``rest_bias=False`` leave the wrappers out; a method given inside a ``Guard`` is taken as it
+    is. Without the guard, stamps must rise and samples be finite: a method divides by the time between them.
 
     *start_from* is what was learned of the same sensor before (:class:`Learned`, or an attitude that has it). *slew* (rad/s)
     bounds how fast corrections turn the attitude given out: see :class:`Slewed` and :attr:`pending`.
@@ -73,7 +76,7 @@ class Stream:
         start: Attitude | ArrayLike | None = None,
         *,
         bias: ArrayLike = (0.0, 0.0, 0.0),
-        guard: bool = True,
+        guard: bool | None = True,
         rest_bias: bool = True,
         silence: float = 0.05,
         start_from: Learned | Attitude | None = None,
@@ -98,7 +101,7 @@ class Stream:
         self._run: Any = None
         self._row = np.zeros((1, WIDTH))
         self._gyr, self._acc, self._mag = self._row[0, GYR:ACC], self._row[0, ACC:MAG], self._row[0, MAG:ACC_AGE]
-        self._aside = np.array([nan, 1.0, 1.0, 0, 0, 0, 1.0, 0, 0, 0])
+        self._aside = np.array([nan, 1.0, 1.0, 0, 0, 0, 1.0, 0, 0, 0, 0, nan, nan, nan, nan])
         self._heading: HeadingReference = start.heading_reference if isinstance(start, Attitude) else "arbitrary"
         self._latest: Attitude | None = None
         self._space: Iterator[Any] = iter(())
@@ -127,6 +130,7 @@ class Stream:
         if isinstance(packet[0], (int, np.number)):
             return self.update(Packet(float(packet[0]), *packet[1:]))
         many = samples(*packet)
+        check_unit_of_time(many["time"], even=True)
         rows = np.zeros((len(many["time"]), WIDTH))
         rows[:, TIME] = many["time"]
         rows[:, GYR:ACC], rows[:, ACC:MAG], rows[:, MAG:ACC_AGE] = many["gyr"], many["acc"], many["mag"]
@@ -218,6 +222,21 @@ class Stream:
         """(3,) rad, about the Earth's axes: the turn from the attitude given out to the method's own; see *slew*."""
         state = self.running_state
         return np.array(getattr(state, "pending", (0.0, 0.0, 0.0)), float)
+
+    @property
+    def resets(self) -> int:
+        """How often the method was started anew so far: rows flagged RESET."""
+        return int(self._aside[RESETS])
+
+    @property
+    def reset_delta(self) -> Floats:
+        """(3,) rad: the rotation vector, about the Earth's axes, by which the last reset turned the attitude; else NaN."""
+        return self._aside[DELTA : DELTA + 3].copy()
+
+    @property
+    def reset_time(self) -> float:
+        """s, the stamp of the last reset's row; NaN before the first."""
+        return float(self._aside[RESET_AT])
 
     @property
     def running_state(self) -> Any:
@@ -319,7 +338,7 @@ def estimate(
     start: Attitude | ArrayLike | None = None,
     *,
     bias: ArrayLike = (0.0, 0.0, 0.0),
-    guard: bool = True,
+    guard: bool | None = True,
     rest_bias: bool = True,
     start_from: Learned | Attitude | None = None,
     slew: float | None = None,
@@ -428,7 +447,7 @@ def _slewed(method: Any, slew: float | None) -> Any:
     return Slewed(method, slew, float(getattr(_core(method), "lead", 0.0)))
 
 
-def _wrapped(method: Any, guard: bool, rest_bias: bool) -> Any:
+def _wrapped(method: Any, guard: bool | None, rest_bias: bool) -> Any:
     prepared(method)  # a clear error about the method itself, before it is wrapped
     if isinstance(method, Guard):
         return method

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from poise.data.flags import LOST
+from poise.data.flags import LOST, RESET
 from poise.data.packet import Sample
 from poise.estimators.protocol import output, resting_sample, start, step
 from poise.math.compiled import Memory, borrowed, compiled, entry, returned
-from poise.math.quaternions import Quat, inner
+from poise.math.quaternions import Quat, conjugate, inner, log
 from poise.math.vectors import Vec3
 
 Floats = NDArray[np.float64]
@@ -21,8 +21,9 @@ Floats = NDArray[np.float64]
 TIME, GYR, ACC, MAG, ACC_AGE, MAG_AGE, WIDTH = 0, 1, 4, 7, 10, 11, 12
 ROW_COLUMNS = ("time", "gyr", "acc", "mag", "acc_age", "mag_age")
 # What the loop remembers beside the method's state: the clock, whether the next row is the first, the quaternion it
-# wrote last, and the turn about up that `reset_heading` asked for.
-CLOCK, FIRST, LAST, TURN, ASIDE = 0, 1, 2, 6, 10
+# wrote last, the turn about up that `reset_heading` asked for, and how many resets there were, with the turn and the
+# time of the last one.
+CLOCK, FIRST, LAST, TURN, RESETS, DELTA, RESET_AT, ASIDE = 0, 1, 2, 6, 10, 11, 14, 15
 
 
 @compiled
@@ -98,6 +99,10 @@ def advance(memory: Any, rows: Floats, table: Floats, flags: NDArray[np.uint32])
         q = out.attitude
         if turn.z != 0.0:
             q = turn * q
+        if out.flags & RESET != 0:
+            jump = log(q * conjugate(last))
+            aside[RESETS] += 1.0
+            aside[DELTA], aside[DELTA + 1], aside[DELTA + 2], aside[RESET_AT] = jump.x, jump.y, jump.z, clock
         if inner(q, last) < 0.0:  # q and −q are one attitude: stay on the side we were
             q = -q
         if isfinite(q.w):

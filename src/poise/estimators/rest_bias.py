@@ -7,7 +7,7 @@ from typing import Annotated, Any, NamedTuple
 
 from poise.data.flags import REST
 from poise.data.packet import Output, Sample
-from poise.estimators.protocol import output, start, step, with_sensors
+from poise.estimators.protocol import output, restart, start, step, with_sensors
 from poise.math.compiled import compiled
 from poise.math.vectors import ZERO, Vec3, present, within
 
@@ -53,6 +53,14 @@ class RestBias(NamedTuple):
         variance = self.initial_sigma * self.initial_sigma
         acc = sample.acc if present(sample.acc) else ZERO
         return State(inner, bias, variance, bias, variance, False, sample.gyr, acc, 0.0, ZERO)
+
+    def restart(self, state: State, sample: Sample, bias: Vec3) -> State:
+        """The method starts anew; what rests have taught stays, as well as it was known."""
+        inner = restart(self.method, state.inner, _without(sample, state.bias), bias - state.bias)
+        acc = sample.acc if present(sample.acc) else state.mean_acc
+        return State(
+            inner, state.bias, state.variance, state.prior, state.prior_variance, state.settled, sample.gyr, acc, 0.0, ZERO
+        )  # fmt: skip
 
     def step(self, state: State, sample: Sample) -> State:
         dt = sample.dt

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from math import atan2, isfinite, pi, radians, sqrt
+from math import isfinite, pi, radians, sqrt
 from typing import Annotated, Any, NamedTuple
 
-from poise.data.flags import INVALID, RESET, TIME_DISORDER
+from poise.data.flags import INVALID, RESET
 from poise.data.packet import Output, Sample
 from poise.estimators.protocol import output, start, step
 from poise.math.compiled import compiled
-from poise.math.quaternions import Quat, conjugate, exp, renormalized
+from poise.math.quaternions import Quat, conjugate, exp, log, renormalized
 from poise.math.vectors import ZERO, Vec3, norm
 
 _NOTHING = 1e-9  # rad: rounding is no correction
@@ -49,9 +49,9 @@ class Slewed(NamedTuple):
         q = _at_sample(self, out)
         if out.flags & (INVALID | RESET) != 0 or not (isfinite(state.given.w) and isfinite(q.w)):
             return State(inner, q, ZERO, out)
-        dt = 0.0 if out.flags & TIME_DISORDER != 0 or not sample.dt > 0.0 else sample.dt
+        dt = out.dt if out.dt > 0.0 else 0.0  # the guard's, which knows how long the row was taken to last
         turned = state.given * exp(dt * out.rate)
-        apart = _turn_of(q * conjugate(turned))
+        apart = log(q * conjugate(turned))
         angle, most = norm(apart), self.rate * dt
         if angle <= max(most, _NOTHING):
             return State(inner, q, ZERO, out)
@@ -72,17 +72,6 @@ class Slewed(NamedTuple):
 def _at_sample(slewed: Slewed, out: Output) -> Quat:
     """The method's attitude at the sample itself."""
     return out.attitude if slewed.lead == 0.0 else out.attitude * exp(-slewed.lead * out.rate)
-
-
-@compiled
-def _turn_of(q: Quat) -> Vec3:
-    """The rotation vector of q, of at most half a turn."""
-    w = abs(q.w)
-    sine = sqrt(q.x * q.x + q.y * q.y + q.z * q.z)
-    scale = 2.0 if sine < 1e-9 else 2.0 * atan2(sine, w) / sine
-    if q.w < 0.0:
-        scale = -scale
-    return Vec3(scale * q.x, scale * q.y, scale * q.z)
 
 
 @compiled

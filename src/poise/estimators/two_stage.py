@@ -30,7 +30,9 @@ from poise.math.matrices import I3, I4, Mat3, Mat4, Mat34, Mat43, diagonal, inve
 from poise.math.quaternions import Quat, attitude_of, exp, inner, normalize, rotate, shortest_turn, up_in_body
 from poise.math.vectors import ABSENT, UP, Vec3, norm, present, unit
 
-_START_TIME = 0.01  # s over which the first sample's noise is taken as averaged: P0 from the sensors' densities
+_START_TIME = (
+    0.01  # s over which the first sample's noise is taken as averaged, at least: P0 from the sensors' densities
+)
 
 
 class State(NamedTuple):
@@ -70,8 +72,8 @@ class TwoStage(NamedTuple):
         """1. Angles from the first acc and mag → x0; P0 from the sensors' noise."""
         x = attitude_of(sample.acc, sample.mag, self.declination)
         tilt, heading = (self.acc_noise / self.gravity) ** 2, self.mag_noise**2
-        L = turns_about_earth(x)
-        return State(x, bias, (0.25 / _START_TIME) * (L @ diagonal(tilt, tilt, heading) @ transpose(L)), 0.0)
+        L, per_time = turns_about_earth(x), 0.25 / max(_START_TIME, sample.acc_dt)
+        return State(x, bias, per_time * (L @ diagonal(tilt, tilt, heading) @ transpose(L)), 0.0)
 
     def step(self, state: State, sample: Sample) -> State:
         x, P, T, doubt = state.attitude, state.covariance, sample.dt, state.doubt

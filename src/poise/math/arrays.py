@@ -80,6 +80,14 @@ def angle(q: Floats) -> Floats:
     return np.asarray(2.0 * np.arctan2(np.linalg.norm(q[..., 1:], axis=-1), np.abs(q[..., 0])))
 
 
+def rotation_vector(q: Floats) -> Floats:
+    """(..., 3) rad: the axis of each turn times its angle, at most half a turn; q and −q are one turn."""
+    q = np.where(q[..., :1] < 0.0, -q, q)
+    sine = length(q[..., 1:])
+    scale = np.divide(2.0 * np.arctan2(sine, q[..., 0]), sine, out=np.full_like(sine, 2.0), where=sine > 1e-9)
+    return np.asarray(scale[..., None] * q[..., 1:])
+
+
 def turn_about_up(angle_rad: Floats) -> Floats:
     """Quaternions that turn the Earth frame counter-clockwise about up."""
     half = 0.5 * np.asarray(angle_rad, float)

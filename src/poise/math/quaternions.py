@@ -104,6 +104,16 @@ def exp(v: Vec3) -> Quat:
 
 
 @compiled
+def log(q: Quat) -> Vec3:
+    """The rotation vector of q, of at most half a turn: the inverse of :func:`exp`."""
+    sine = sqrt(q.x * q.x + q.y * q.y + q.z * q.z)
+    scale = 2.0 if sine < 1e-9 else 2.0 * atan2(sine, abs(q.w)) / sine
+    if q.w < 0.0:
+        scale = -scale
+    return Vec3(scale * q.x, scale * q.y, scale * q.z)
+
+
+@compiled
 def up_in_body(q: Quat) -> Vec3:
     """The body-frame direction of up, qᵀ e_z."""
     return Vec3(

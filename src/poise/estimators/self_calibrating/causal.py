@@ -239,7 +239,7 @@ class SelfCalibrating(NamedTuple):
         if not within(sample.gyr, 0.98 * self.gyr_range):
             flags |= GYR_CLIPPED
         if self.log > 0:  # which entry of the log the row stands behind
-            flags |= (int(P[SENSOR, 22]) & 0xFFF) << 20
+            flags |= (int(P[SENSOR, 22]) & 0xF) << 28
         return Output(sample.dt, q, state.rate, state.bias, sigma, bias_sigma, flags)
 
     def learned(self, state: State) -> Learned:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from poise.data.attitude import Attitude
+from poise.data.flags import KNOWN
 from poise.data.learned import Learned
 from poise.data.recording import Recording
 from poise.errors import MethodError, RecordingError
@@ -21,8 +22,8 @@ from poise.estimators.self_calibrating.model import ENTRIES, ENTRY, SENSOR, SIZE
 from poise.math.vectors import Vec3
 
 _PART = 1024  # rows of a recording at a time: what they log stays near the processor
-_INDEX = np.uint32(20)  # from this bit of the flags on the log's entries are counted
-_KNOWN = np.uint32(0xFFFFF)  # the flags below it
+_INDEX = np.uint32(28)  # from this bit of the flags on the log's entries are counted
+_KNOWN = np.uint32(KNOWN)  # the flags below it
 
 
 def smooth(
@@ -91,9 +92,9 @@ class _WayBack:
         self._log = np.empty((likely * ENTRY, WIDTH))  # memory is taken where it is written
 
     def add(self, stream: Stream, rows: slice, flags: NDArray[np.uint32]) -> None:
-        """Take the entries that *stream* has finished in *rows*, whose *flags* count them modulo 4096; one a row at most."""
+        """Take the entries that *stream* has finished in *rows*, whose *flags* count them modulo 16; one a row at most."""
         counted = (flags >> _INDEX).astype(np.int64)
-        finished = np.mod(np.diff(counted, prepend=self._count % 4096), 4096)
+        finished = np.mod(np.diff(counted, prepend=self._count % 16), 16)
         self.entry[rows] = self._count + np.cumsum(finished)
         times = self._rows[rows][finished > 0]
         end = (self._count - self._first) * ENTRY

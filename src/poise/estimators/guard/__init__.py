@@ -1,0 +1,5 @@
+"""What keeps from a method what is no measurement: the stamps, the samples, and the wrapper that judges both."""
+
+from poise.estimators.guard.guard import Guard
+
+__all__ = ["Guard"]
