@@ -14,14 +14,20 @@ import argparse
 import json
 import os
 import sys
+import time as clock
 from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
+from typing import Any
 
-from accuracy import data_folder, trial_files
+from accuracy import data_folder, trial_files, warm
+from fault_bench.checked import Check
+from fault_bench.checks import CheckTask, check, check_tasks
 from fault_bench.contenders import contender, names
-from fault_bench.matrix import Case, run, tasks
-from fault_bench.report import document, failures, group_tables, summary_table
+from fault_bench.matrix import Case, perform, tasks
+from fault_bench.report import check_table, document, failures, group_tables, summary_table
 from fault_bench.rows import FAULTS
+from poise import METHODS
 from scores import CHOSEN, HELD_OUT
 
 SEEDS, FINAL_SEEDS = (1, 2), (101, 102)
@@ -35,21 +41,48 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"no such BROAD trials in {data_folder()}; POISE_DATA says where they are", file=sys.stderr)
         return int(bool(os.environ.get("CI")))
     seeds = options.seeds or (FINAL_SEEDS if options.final else SEEDS)
-    wanted = [fault.key for fault in FAULTS if not options.rows or fault.group in options.rows]
+    groups = options.rows or []
+    wanted = [fault.key for fault in FAULTS if not groups or fault.group in groups]
     who = names(f"{options.methods},{options.peers}")
-    cases = run(tasks(files, seeds, who, wanted), options.jobs, lambda text: print(text, file=sys.stderr, flush=True))
+    own = [name for name in who if contender(name).package == "poise"]
+    todo: list[Any] = [*tasks(files, seeds, who, wanted), *check_tasks(files, seeds[0], own, groups, options.sequences)]
+    if options.jobs > 1:
+        warm({name: METHODS[name]() for name in own})
+    found = [part for parts in run(todo, options.jobs) for part in parts]
+    cases = sorted(part for part in found if isinstance(part, Case))
+    checks = [part for part in found if isinstance(part, Check)]
     if options.json:
-        print(json.dumps(document(cases), indent=1, ensure_ascii=False))
+        print(
+            json.dumps(
+                {"cases": document(cases), "checks": [c._asdict() for c in checks]}, indent=1, ensure_ascii=False
+            )
+        )
     else:
-        print(report(cases, who, options.markdown))
-    return int(failures(cases, who) > 0)
+        print(report(cases, checks, who, options.markdown))
+    return int(failures(cases, who) > 0 or not all(c.met for c in checks))
 
 
-def report(cases: Sequence[Case], who: Sequence[str], markdown: bool) -> str:
-    """The summary, then the tables by fault of poise's methods, then those of the peers."""
+def run(todo: Sequence[Any], jobs: int) -> list[list[Any]]:
+    """What every task gives, in order, *jobs* of them at a time; says on stderr what is done."""
+    start = clock.perf_counter()
+    with ProcessPoolExecutor(jobs) as pool:
+        futures = [pool.submit(_perform, task) for task in todo]
+        for i, future in enumerate(as_completed(futures), 1):
+            task = todo[futures.index(future)]
+            print(f"{clock.perf_counter() - start:4.0f} s, {i}/{len(todo)}: {task}", file=sys.stderr, flush=True)
+    return [future.result() for future in futures]
+
+
+def _perform(task: Any) -> list[Any]:
+    return check(task) if isinstance(task, CheckTask) else perform(task)
+
+
+def report(cases: Sequence[Case], checks: Sequence[Check], who: Sequence[str], markdown: bool) -> str:
+    """The summary, the checks, then the tables by fault of poise's methods, then those of the peers."""
     own = [name for name in who if contender(name).package == "poise"]
     foreign = [name for name in who if name not in own]
-    parts = summary_table(cases, list(who), markdown=markdown)
+    parts = summary_table(cases, list(who), markdown=markdown) if cases else []
+    parts += check_table(checks, own, markdown=markdown)
     for columns in (own, foreign):
         if columns:
             parts += group_tables(cases, columns, markdown=markdown)
@@ -69,7 +102,10 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--peers", default="peers", help='peers or packages, by commas (default all installed; "" none)'
     )
-    parser.add_argument("--rows", type=_words, help="groups of faults, by commas: E2,E3")
+    parser.add_argument(
+        "--rows", type=_words, help="groups of the matrix, by commas: E2,E3 (also E1, E16: checks only)"
+    )
+    parser.add_argument("--sequences", type=int, default=1_000_000, help="fuzzed sequences a method (default 10^6)")
     parser.add_argument("--trials", type=_words, help="trials, by commas: 01,05 (default: the half)")
     parser.add_argument("--seeds", type=_numbers, help="seeds, by commas (default: the half)")
     parser.add_argument("--jobs", type=int, default=min(2, os.cpu_count() or 1), help="processes (default 2)")

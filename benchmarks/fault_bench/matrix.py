@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -42,35 +41,19 @@ class Task(NamedTuple):
     contenders: tuple[str, ...]
     faults: tuple[str, ...]
 
+    def __str__(self) -> str:
+        who = self.contenders[0] if len(self.contenders) == 1 else f"{len(self.contenders)} contenders"
+        return f"{len(self.faults)} faults on {self.file.stem}, seed {self.seed}, {who}"
+
 
 def tasks(files: Sequence[Path], seeds: Sequence[int], names: Sequence[str], faults: Iterable[str]) -> list[Task]:
-    """Every trial with every seed; slow packages get the first of both only."""
-    slow = {name for name in names if contender(name).package in SLOW}
-    quick = tuple(name for name in names if name not in slow)
+    """Every trial with every seed for poise's methods, with the first one for peers; slow packages get one trial."""
     keys = tuple(faults)
-    first = [Task(files[0], seeds[0], (name,), keys) for name in sorted(slow)]
-    return first + [Task(file, seed, quick, keys) for file in files for seed in seeds if quick]
-
-
-def run(todo: Sequence[Task], jobs: int, progress: Callable[[str], None]) -> list[Case]:
-    """The cases of all tasks, *jobs* of which run at a time."""
-    cases: list[Case] = []
-    if jobs == 1:
-        for i, task in enumerate(todo, 1):
-            cases += perform(task)
-            progress(_done(i, todo, task))
-        return cases
-    with ProcessPoolExecutor(jobs) as pool:
-        futures = {pool.submit(perform, task): task for task in todo}
-        for i, future in enumerate(as_completed(futures), 1):
-            cases += future.result()
-            progress(_done(i, todo, futures[future]))
-    return sorted(cases)
-
-
-def _done(i: int, todo: Sequence[Task], task: Task) -> str:
-    who = task.contenders[0] if len(task.contenders) == 1 else f"{len(task.contenders)} contenders"
-    return f"{i}/{len(todo)}: {task.file.stem}, seed {task.seed}, {who}"
+    own = tuple(name for name in names if contender(name).package == "poise")
+    peers = tuple(name for name in names if name not in own and contender(name).package not in SLOW)
+    slow = [Task(files[0], seeds[0], (name,), keys) for name in names if contender(name).package in SLOW]
+    others = [Task(file, seeds[0], peers, keys) for file in files if peers]
+    return slow + others + [Task(file, seed, own, keys) for file in files for seed in seeds if own] if keys else []
 
 
 def perform(task: Task) -> list[Case]:

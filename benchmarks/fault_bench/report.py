@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from fault_bench.checked import Check
 from fault_bench.contenders import FLAGSHIP, contender
 from fault_bench.matrix import CLEAN, Case
 from fault_bench.rows import FAULTS, Demand, Fault
@@ -116,6 +117,19 @@ def _valid(cases: Sequence[Case]) -> str | None:
     words += [f"{refused} refused"] if refused else []
     words += [f"{crashed} crashed"] if crashed else []
     return ", ".join(words) or None
+
+
+def check_table(checks: Sequence[Check], names: Sequence[str], *, markdown: bool) -> list[str]:
+    """The checks that are no rows of the matrix."""
+    if not checks:
+        return []
+    found = {(check.group, check.name, check.asked, check.contender): check for check in checks}
+    lines = list(dict.fromkeys((check.group, check.name, check.asked) for check in checks))
+    rows: list[list[Cell]] = []
+    for line in lines:
+        cells = [found.get((*line, name)) for name in names]
+        rows.append([f"{line[0]}: {line[1]}", line[2], *(c and f"{c.found}{'' if c.met else ' ✗'}" for c in cells)])
+    return [heading("Checks", markdown=markdown), table(["", "asked", *names], rows, markdown=markdown)]
 
 
 def summary_table(cases: Sequence[Case], names: Sequence[str], *, markdown: bool) -> list[str]:
