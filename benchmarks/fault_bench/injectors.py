@@ -41,6 +41,7 @@ class Injected:
 
 
 Injector = Callable[[Recording, np.random.Generator], Injected]
+Change = Callable[[dict[str, Floats], slice, np.random.Generator], None]
 
 
 def place(recording: Recording, rng: np.random.Generator, seconds: float, turning: bool = False) -> slice:
@@ -60,9 +61,7 @@ def place(recording: Recording, rng: np.random.Generator, seconds: float, turnin
     return slice(first, first + n)
 
 
-def values(
-    change: Callable[[dict[str, Floats], slice, np.random.Generator], None], seconds: float, turning: bool = False
-):  # type: ignore[no-untyped-def]
+def values(change: Change, seconds: float, turning: bool = False) -> Injector:
     """An injector that changes samples in one stretch of *seconds*; rows and stamps stay."""
 
     def inject(recording: Recording, rng: np.random.Generator) -> Injected:
@@ -103,7 +102,7 @@ def fixed(sensors: str, value: float, seconds: float, turning: bool = False) -> 
         for name in sensors.split():
             arrays[name][rows] = value
 
-    return values(change, seconds, turning)  # type: ignore[no-any-return]
+    return values(change, seconds, turning)
 
 
 def stuck(sensor: str, seconds: float, turning: bool = False) -> Injector:
@@ -112,7 +111,7 @@ def stuck(sensor: str, seconds: float, turning: bool = False) -> Injector:
     def change(arrays: dict[str, Floats], rows: slice, rng: np.random.Generator) -> None:
         arrays[sensor][rows] = arrays[sensor][rows.start - 1]
 
-    return values(change, seconds, turning)  # type: ignore[no-any-return]
+    return values(change, seconds, turning)
 
 
 def from_then_on(sensor: str, value: float) -> Injector:
@@ -128,7 +127,7 @@ def hard_iron(microtesla: float, seconds: float | None) -> Injector:
     def change(arrays: dict[str, Floats], rows: slice, rng: np.random.Generator) -> None:
         arrays["mag"][rows] += microtesla * _direction(rng)
 
-    return values(change, seconds)  # type: ignore[no-any-return]
+    return values(change, seconds)
 
 
 def bias_step(deg_s: float) -> Injector:
