@@ -269,6 +269,14 @@ def test_without_a_level_field_the_heading_is_zero(mag: Vec3) -> None:
     assert plain(angles_of)(acc, mag).heading == 0.0
 
 
+@pytest.mark.parametrize("tiny", [1e-160, -1e-160, 5e-324, 1e-158])
+def test_attitude_of_components_whose_squares_underflow_is_a_unit_quaternion(tiny: float) -> None:
+    acc, mag = Vec3(tiny, 9.81, tiny), Vec3(30.0, tiny, tiny)
+    for attitude in (attitude_of, plain(attitude_of)):
+        for a, m in ((acc, mag), (Vec3(0.0, 0.0, 9.81), Vec3(tiny, tiny, -40.0))):
+            assert np.linalg.norm(attitude(a, m, 0.1)) == pytest.approx(1.0, abs=1e-12)
+
+
 @for_all(long_vectors, long_vectors, declinations)
 def test_north_of_is_the_north_of_attitude_of(acc: Vec3, mag: Vec3, declination: float) -> None:
     up = plain(unit)(acc)

@@ -11,6 +11,8 @@ from typing import NamedTuple
 from poise.math.compiled import compiled
 from poise.math.vectors import ZERO, Vec3, cross, dot, norm, unit
 
+TINY = 1e-100  # a length below it comes from squares that have lost their digits: its direction is no direction
+
 
 class Quat(NamedTuple):
     """A quaternion, scalar first; ``p * q`` turns by q, then by p."""
@@ -190,12 +192,12 @@ def attitude_of(acc: Vec3, mag: Vec3, declination: float) -> Quat:
     up = unit(acc)
     sp = min(max(up.y, -1.0), 1.0)
     cp = sqrt(up.x * up.x + up.z * up.z)
-    cr, sr = (up.z / cp, -up.x / cp) if cp > 0.0 else (1.0, 0.0)
+    cr, sr = (up.z / cp, -up.x / cp) if cp > TINY else (1.0, 0.0)
     y = cr * mag.x + sr * mag.z
     x = sp * sr * mag.x + cp * mag.y - sp * cr * mag.z
     length = sqrt(x * x + y * y)
-    ch, sh = (x / length, y / length) if length > 0.0 else (1.0, 0.0)  # no field, or one that points along up
-    if declination != 0.0 and length > 0.0:
+    ch, sh = (x / length, y / length) if length > TINY else (1.0, 0.0)  # no field, or one that points along up
+    if declination != 0.0 and length > TINY:
         cd, sd = cos(declination), sin(declination)
         ch, sh = ch * cd + sh * sd, sh * cd - ch * sd
     pitch, roll, heading = half_turn(cp, sp), half_turn(cr, sr), half_turn(ch, sh)
@@ -236,7 +238,7 @@ def north_of(up: Vec3, mag: Vec3, declination: float) -> Vec3:
     """True north in the body frame, level with *up*, from the field, as :func:`attitude_of` has it; zero where it has none."""
     east = cross(mag, up)
     length = norm(east)
-    if length == 0.0:  # the field points along up
+    if length <= TINY:  # the field points along up
         return ZERO
     east = east / length
     north = cross(up, east)
