@@ -63,8 +63,8 @@ class Stream:
 
     *start* is an attitude to start at (an :class:`Attitude`, whose first known row counts, or w x y z, body to ENU); by
     default the first usable accelerometer and magnetometer samples decide. *bias* (rad/s) is the gyroscope's, where it
-    is known. ``guard=None`` and ``rest_bias=False`` leave the wrappers out; a method given inside a ``Guard`` is taken as it is. Without
-    the guard, stamps must rise and samples be finite: a method divides by the time between them.
+    is known. ``guard=None`` and ``rest_bias=False`` leave the wrappers out; a method given inside a ``Guard`` is taken as
+    it is. Without the guard, stamps must rise and samples be finite: a method divides by the time between them.
 
     *start_from* is what was learned of the same sensor before (:class:`Learned`, or an attitude that has it). *slew* (rad/s)
     bounds how fast corrections turn the attitude given out: see :class:`Slewed` and :attr:`pending`.

@@ -89,7 +89,9 @@ def taken(channel: Channel, value: Vec3, changed: float, dt: float, still: bool)
 def jumped(channel: Channel, changed: float, age: float, usual_step: float, limits: Limits) -> bool:
     """Whether a sample is further from the last one than eight times what is usual over that time."""
     rows = max(age / usual_step, 1.0) if usual_step > 0.0 else 1.0
-    return changed > (_JUMP * channel.change + limits.jump * limits.jump) * rows * rows and age + channel.same <= _SLOWEST
+    return (
+        changed > (_JUMP * channel.change + limits.jump * limits.jump) * rows * rows and age + channel.same <= _SLOWEST
+    )
 
 
 @compiled
@@ -116,7 +118,7 @@ def judged(
         return Judged(ABSENT, c, STUCK)
     if changed > 0.0 and channel.same > max(least, 4.0 * channel.longest) and channel.lively >= _IN_MOTION:
         c = _forgiven(c, channel.longest)  # it hung: that is not its nature
-    largest = max(abs(value.x), max(abs(value.y), abs(value.z)))
+    largest = max(abs(value.x), abs(value.y), abs(value.z))
     if largest > (1.0 + _TOLERANCE) * c.most:
         return Judged(value, _widened(c, largest, 0), FINE)
     if largest >= (1.0 - _TOLERANCE) * c.most:
