@@ -30,9 +30,7 @@ from poise.math.matrices import I3, I4, Mat3, Mat4, Mat34, Mat43, diagonal, inve
 from poise.math.quaternions import Quat, attitude_of, exp, inner, normalize, rotate, shortest_turn, up_in_body
 from poise.math.vectors import ABSENT, UP, Vec3, norm, present, unit
 
-_START_TIME = (
-    0.01  # s over which the first sample's noise is taken as averaged, at least: P0 from the sensors' densities
-)
+_START_TIME = 0.01  # s that a first sample's noise is taken as averaged over, at least: P0 from the sensors' densities
 
 
 class State(NamedTuple):

@@ -48,6 +48,7 @@ from poise.math.vectors import ABSENT, UP, ZERO, Vec3, cross, dot, norm, present
 
 _REST_RATE, _REST_FORCE = 0.1, 0.05  # rad/s with any bias; share of gravity
 _SURE = 0.01  # rad of doubt: no longer worth a thought
+_LEVELLED = 0.15  # rad: how far off the mean force of two seconds in motion may be from up
 
 
 class Levelling(NamedTuple):
@@ -143,40 +144,38 @@ class Guard(NamedTuple):
         )  # fmt: skip
 
     def step(self, state: State, sample: Sample) -> State:
-        """The common row is told by a few comparisons and goes straight to the method; all else is `_careful`."""
-        dt = sample.dt
-        if state.plain and evenly(state.pace, dt, self.gap):
-            gyr, acc, mag = state.gyr, state.acc, state.mag
-            by_gyr, by_acc, by_mag = change(gyr, sample.gyr), change(acc, sample.acc), change(mag, sample.mag)
-            has_mag = by_mag - by_mag == 0.0
-            silent = state.mag_absent + dt
-            if (
-                usual(gyr, sample.gyr, by_gyr, _gyr_limits(self))
-                and usual(acc, sample.acc, by_acc, _acc_limits(self))
-                and (
-                    usual(mag, sample.mag, by_mag, _mag_limits(self, mag.value)) and (state.aligned and state.mag_seen)
-                    if has_mag
-                    else not present(sample.mag)
-                    and (silent <= max(self.mag_loss, 3.0 * mag.every) or not state.mag_seen)
-                )
-            ):
-                still = within(sample.gyr, _REST_RATE)
-                gyr, acc = taken(gyr, sample.gyr, by_gyr, dt, still), taken(acc, sample.acc, by_acc, dt, still)
-                if has_mag:
-                    mag = taken(mag, sample.mag, by_mag, silent, still)
-                sample = Sample(
-                    dt, sample.gyr, sample.acc, sample.mag if has_mag else ABSENT, sample.acc_age, sample.mag_age,
-                    dt, min(silent, self.gap),
-                )  # fmt: skip
-                inner = step(self.method, state.inner, sample)
-                astray = _astray(self, state.astray, sample, output(self.method, inner, sample).attitude, still)
-                lost = astray > self.astray_time
-                flags = (LOST if lost else 0) | (0 if state.aligned else HEADING_ARBITRARY)
-                return State(
-                    inner, gyr, acc, mag, counted_on(state.pace, dt), state.levelling, dt, not lost, True, state.aligned,
-                    state.mag_seen, lost, 0.0, 0.0, 0.0 if has_mag else silent, astray, 0.0, flags,
-                )  # fmt: skip
-        return _careful(self, state, sample)
+        """A common row is told by a few comparisons; all others are looked at one by one."""
+        common = _common(self, state, sample)
+        look = _NOTHING
+        if common:
+            clean = _plain(self, state, sample)
+        else:
+            look = _examined(self, state, sample)
+            if not look.goes_on:
+                return _waiting(self, state, look)
+            clean = look.sample
+        inner = step(self.method, state.inner, clean)
+        astray = state.astray
+        if (common or look.usable) and within(clean.gyr, _REST_RATE) and _at_rest(clean, self.gravity):
+            astray = _astray(self, astray, clean, output(self.method, inner, clean).attitude)
+        lost = astray > self.astray_time
+        flags = (LOST if lost else 0) | (0 if state.aligned else HEADING_ARBITRARY)
+        if common:
+            still, silent = within(clean.gyr, _REST_RATE), state.mag_absent + clean.dt
+            mag, has_mag = state.mag, present(clean.mag)
+            if has_mag:
+                mag = taken(mag, clean.mag, change(mag, clean.mag), silent, still)
+            return State(
+                inner, taken(state.gyr, clean.gyr, change(state.gyr, clean.gyr), clean.dt, still),
+                taken(state.acc, clean.acc, change(state.acc, clean.acc), clean.dt, still), mag,
+                counted_on(state.pace, clean.dt), state.levelling, clean.dt, not lost, True, state.aligned, state.mag_seen,
+                lost, 0.0, 0.0, 0.0 if has_mag else silent, astray, 0.0, flags,
+            )  # fmt: skip
+        return State(
+            inner, look.gyr, look.acc, look.mag, look.pace, _NOT_YET, clean.dt, look.usable and look.doubt == 0.0,
+            True, state.aligned, look.mag_seen, lost, look.gyr_absent, look.acc_absent, look.mag_absent, astray,
+            look.doubt, look.flags | flags,
+        )  # fmt: skip
 
     def output(self, state: State, sample: Sample) -> Output:
         """What the method says; it sees the rate, not the other sensors, which it had in ``step``.
@@ -193,15 +192,76 @@ class Guard(NamedTuple):
         return Output(out.dt, attitude, out.rate, out.bias, sigma, out.bias_sigma, out.flags | state.flags)
 
 
+class Look(NamedTuple):
+    """What a row is found to be."""
+
+    gyr: Channel
+    acc: Channel
+    mag: Channel
+    pace: Pace
+    sample: Sample  # what the method may see of it, and how long it lasts
+    goes_on: bool  # the method steps; otherwise it waits, or is started
+    usable: bool  # gyroscope and accelerometer were measured
+    gathers: bool  # and nothing turned unmeasured: good for starting anew from
+    mag_seen: bool
+    gyr_absent: float  # s
+    acc_absent: float
+    mag_absent: float
+    lost: bool
+    doubt: float  # rad
+    flags: int
+
+
+_EMPTY = fresh(ZERO, Limits(0.0, 0.0, 0.0, 0.0))
+_NOTHING = Look(
+    _EMPTY, _EMPTY, _EMPTY, Pace(0.0, 0.0, 0.0, 0), Sample(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, 0.0, 0.0),
+    False, False, False, False, 0.0, 0.0, 0.0, False, 0.0, 0,
+)  # fmt: skip
+
+
 @compiled
-def _careful(guard: Guard, state: State, sample: Sample) -> State:
-    """A row that is not a common one: judge its stamp and each sample, then step the method, wait, or start it anew."""
+def _common(guard: Guard, state: State, sample: Sample) -> bool:
+    """Whether nothing has to be looked at: an even step, and samples as they usually are."""
+    gyr, acc, mag = state.gyr, state.acc, state.mag
+    by_mag = change(mag, sample.mag)
+    if by_mag - by_mag == 0.0:
+        field = usual(mag, sample.mag, by_mag, _mag_limits(guard, mag.value)) and state.aligned and state.mag_seen
+    else:  # a large enough number may overflow in the square: that is for a closer look
+        silent = state.mag_absent + sample.dt > max(guard.mag_loss, 3.0 * mag.every)
+        field = not present(sample.mag) and not (silent and state.mag_seen)
+    return (
+        state.plain
+        and not state.lost
+        and field
+        and evenly(state.pace, sample.dt, guard.gap)
+        and usual(gyr, sample.gyr, change(gyr, sample.gyr), _gyr_limits(guard))
+        and usual(acc, sample.acc, change(acc, sample.acc), _acc_limits(guard))
+    )
+
+
+@compiled
+def _plain(guard: Guard, state: State, sample: Sample) -> Sample:
+    """A common row as the method may see it."""
+    dt, field = sample.dt, sample.mag if present(sample.mag) else ABSENT
+    return Sample(
+        dt, sample.gyr, sample.acc, field, sample.acc_age, sample.mag_age, dt, min(state.mag_absent + dt, guard.gap)
+    )  # fmt: skip
+
+
+@compiled
+def _examined(guard: Guard, state: State, sample: Sample) -> Look:
+    """A row that is not a common one: its stamp and each of its samples is judged."""
     gyr, acc, mag = state.gyr, state.acc, state.mag
     by_gyr, by_acc, by_mag = change(gyr, sample.gyr), change(acc, sample.acc), change(mag, sample.mag)
     row = timed(state.pace, sample.dt, by_gyr == 0.0 and not by_acc > 0.0 and not by_mag > 0.0, guard.gap)
-    if row.dt == 0.0:
-        return _held(guard, state, row.pace, row.flags)
     dt, flags = row.dt, row.flags
+    if dt == 0.0:  # no time can be given to it: nothing moves, and too many of them lose the attitude
+        lost = state.lost or row.pace.waiting > guard.longest_disorder
+        nothing = Sample(0.0, gyr.value, ABSENT, ABSENT, 0.0, 0.0, 0.0, 0.0)
+        return Look(
+            gyr, acc, mag, row.pace, nothing, False, False, False, state.mag_seen,
+            state.gyr_absent, state.acc_absent, state.mag_absent, lost, state.doubt, flags,
+        )  # fmt: skip
 
     # What the samples are worth
     gyr_age, acc_age, mag_age = state.gyr_absent + dt, state.acc_absent + dt, state.mag_absent + dt
@@ -265,62 +325,51 @@ def _careful(guard: Guard, state: State, sample: Sample) -> State:
         doubt = doubt * guard.settle_time / (guard.settle_time + dt) if doubt > _SURE else 0.0
     lost = lost or (state.pace.waiting > guard.longest_disorder and usual_step == 0.0)
     usable = has_acc and has_gyr
-
-    if state.started and not lost and (state.aligned or not has_mag or not guard.follows_mag):
-        inner = step(guard.method, state.inner, clean)
-        astray = state.astray
-        if usable:
-            q = output(guard.method, inner, clean).attitude
-            astray = _astray(guard, astray, clean, q, within(rate, _REST_RATE))
-        lost = astray > guard.astray_time
-        flags |= (LOST if lost else 0) | (UNSETTLED if doubt > guard.valid_doubt else 0)
-        flags |= 0 if state.aligned else HEADING_ARBITRARY
-        plain = usable and not lost and doubt == 0.0
-        return State(
-            inner, gyr, acc, mag, row.pace, _NOT_YET, dt, plain, True, state.aligned,
-            mag_seen, lost, gyr_absent, acc_absent, mag_absent, astray, doubt, flags,
-        )  # fmt: skip
-
-    # From here on the method does not step: it waits for samples to start from, or starts.
-    before = output(guard.method, state.inner, clean)
-    levelling = _gathered(guard, state.levelling, clean, rate - before.bias, usable and hidden == 0.0)
-    ready = usable and (not lost or _enough(guard, levelling))
-    if not ready:
-        flags |= (LOST if state.started else INITIALISING) | (0 if state.aligned else HEADING_ARBITRARY)
-        return State(
-            state.inner, gyr, acc, mag, row.pace, levelling, dt, False, state.started, state.aligned,
-            mag_seen, lost, gyr_absent, acc_absent, mag_absent, 0.0, doubt, flags,
-        )  # fmt: skip
-    if lost:
-        clean = _mean(levelling, clean)
-        has_mag = has_mag or present(clean.mag)
-        doubt = radians(8.6) if levelling.moved else 0.0
-    if state.started:
-        flags |= RESET
-        clean = _restart(guard, before.attitude, clean, lost)
-    inner = restart(guard.method, state.inner, clean, before.bias)  # from the placeholder too: what it knew stays
-    kept = state.aligned and (not state.mag_seen or not guard.follows_mag)
-    aligned = kept if state.started and not guard.follows_mag else has_mag or (state.started and kept)
-    flags |= (0 if aligned else HEADING_ARBITRARY) | (UNSETTLED if doubt > guard.valid_doubt else 0)
-    return State(
-        inner, gyr, acc, mag, row.pace, _NOT_YET, dt, doubt == 0.0, True, aligned,
-        mag_seen, False, gyr_absent, acc_absent, mag_absent, 0.0, doubt, flags,
+    goes_on = state.started and not lost and (state.aligned or not has_mag or not guard.follows_mag)
+    flags |= UNSETTLED if goes_on and doubt > guard.valid_doubt else 0
+    return Look(
+        gyr, acc, mag, row.pace, clean, goes_on, usable, usable and hidden == 0.0, mag_seen,
+        gyr_absent, acc_absent, mag_absent, lost, doubt, flags,
     )  # fmt: skip
 
 
 @compiled
-def _held(guard: Guard, state: State, pace: Pace, flags: int) -> State:
-    """A row that no time can be given to: nothing moves, and too many of them lose the attitude."""
-    lost = state.lost or pace.waiting > guard.longest_disorder
-    flags |= 0 if state.aligned else HEADING_ARBITRARY
-    if not state.started:
-        flags |= INITIALISING
-    elif lost:
-        flags |= LOST
-    flags |= UNSETTLED if state.doubt > guard.valid_doubt else 0
+def _waiting(guard: Guard, state: State, look: Look) -> State:
+    """The method does not step: it waits for samples to start from, or is started from this one."""
+    sample, lost, doubt, flags = look.sample, look.lost, look.doubt, look.flags
+    levelling, ready = state.levelling, False
+    if sample.dt > 0.0:
+        bias = output(guard.method, state.inner, sample).bias
+        levelling = _gathered(guard, levelling, sample, sample.gyr - bias, look.gathers)
+        ready = look.usable and (not lost or _enough(guard, levelling))
+    if not ready:
+        if not state.started:
+            flags |= INITIALISING
+        elif lost:
+            flags |= LOST
+        elif doubt > guard.valid_doubt:
+            flags |= UNSETTLED
+        flags |= 0 if state.aligned else HEADING_ARBITRARY
+        return State(
+            state.inner, look.gyr, look.acc, look.mag, look.pace, levelling, sample.dt, False,
+            state.started, state.aligned, look.mag_seen, lost, look.gyr_absent, look.acc_absent, look.mag_absent,
+            0.0, doubt, flags,
+        )  # fmt: skip
+    before = output(guard.method, state.inner, sample)
+    if lost:
+        sample = _mean(levelling, sample)
+        doubt = _LEVELLED if levelling.moved else 0.0
+    has_mag = present(sample.mag)
+    if state.started:
+        flags |= RESET
+        sample = _restart(guard, before.attitude, sample, lost)
+    inner = restart(guard.method, state.inner, sample, before.bias)  # from the placeholder too: what it knew stays
+    kept = state.aligned and (not state.mag_seen or not guard.follows_mag)
+    aligned = kept if state.started and not guard.follows_mag else has_mag or (state.started and kept)
+    flags |= (0 if aligned else HEADING_ARBITRARY) | (UNSETTLED if doubt > guard.valid_doubt else 0)
     return State(
-        state.inner, state.gyr, state.acc, state.mag, pace, state.levelling, 0.0, False, state.started, state.aligned,
-        state.mag_seen, lost, state.gyr_absent, state.acc_absent, state.mag_absent, state.astray, state.doubt, flags,
+        inner, look.gyr, look.acc, look.mag, look.pace, _NOT_YET, sample.dt, doubt == 0.0,
+        True, aligned, look.mag_seen, False, look.gyr_absent, look.acc_absent, look.mag_absent, 0.0, doubt, flags,
     )  # fmt: skip
 
 
@@ -388,10 +437,8 @@ def _restart(guard: Guard, attitude: Quat, sample: Sample, lost: bool) -> Sample
 
 
 @compiled
-def _astray(guard: Guard, astray: float, sample: Sample, attitude: Quat, still: bool) -> float:
-    """s at rest with a tilt that gravity contradicts; a row that is not at rest, or not astray, sets it back."""
-    if not still or not _at_rest(sample, guard.gravity):
-        return astray
+def _astray(guard: Guard, astray: float, sample: Sample, attitude: Quat) -> float:
+    """s at rest with a tilt that gravity contradicts; a row in which it does not sets it back."""
     along = dot(up_in_body(attitude), sample.acc)
     # 0.9 < cos²(18.4°): nearer than any astray_angle, and the cosine is left for the rare case
     if along < 0.0 or along * along < 0.9 * dot(sample.acc, sample.acc):
