@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import accuracy
-from poise import METHODS, Attitude, Packet, Recording, Stream, TwoStage, estimate
+from poise import METHODS, Attitude, Packet, Recording, Stream, TwoStage, estimate, smooth
 from poise.math import arrays
 from poise.peers import installed, period
 from poise.peers.adapters import imufusion_ahrs, imufusion_filter, imufusion_units
@@ -95,6 +95,7 @@ def groups(made: Recording) -> dict[str, Group]:
     n = len(made)
     return {
         "batch": Group("A whole recording", "ns", 0, n, batch(made)),
+        "offline": Group("A whole recording, from all of it", "ns", 0, n, offline(made)),
         "live": Group("Live, one sample a call", "µs", 2, LIVE, live(made)),
         "stages": Group("Two stages beside one stacked update", "ns", 0, n, _estimates(made)),
         "stages_bare": Group("The same without guard and rest bias", "ns", 0, n, _estimates(made, False)),
@@ -112,6 +113,30 @@ def batch(made: Recording) -> dict[str, Run]:
         **{name: _estimate(method(), made) for name, method in METHODS.items()},
         "imufusion, a Python loop (it has no batch)": lambda: imufusion_ahrs(made),
     }
+
+
+def offline(made: Recording) -> dict[str, Run]:
+    """Whole recordings with the future known."""
+    from vqf import offlineVQF
+
+    return {
+        "offlineVQF": lambda: offlineVQF(made.gyr, made.acc, made.mag, period(made)),
+        "smooth": lambda: smooth(made),
+    }
+
+
+def late(made: Recording) -> list[list[Cell]]:
+    """How long single calls of `Stream.update` take: µs, of all after the first 1000 by quantile."""
+    packets, rows = _packets(made), []
+    for name, method in METHODS.items():
+        stream, took = Stream(method()), []
+        for packet in packets:
+            began = perf_counter_ns()
+            stream.update(packet)
+            took.append(perf_counter_ns() - began)
+        told = np.percentile(np.array(took[1000:]) * 1e-3, [50.0, 99.0, 99.9])
+        rows.append([name, *(f"{value:.1f}" for value in told)])
+    return rows
 
 
 def live(made: Recording) -> dict[str, Run]:
@@ -168,6 +193,8 @@ def main(arguments: list[str] | None = None) -> int:
         timings = interleaved(group, options.rounds)
         _show(group, timings)
         results[key] = {name: _ratios(timing) for name, timing in timings.items()}
+    print(heading("Single calls of Stream.update: µs, the clock's own 0.1 µs included"))
+    print(table(["", "median", "99 %", "99.9 %"], late(made)))
     errors = form_errors()
     print(heading("Mean total RMSE on the BROAD trials, degrees"))
     print(table(["", "total"], list(errors.items())) if errors else "no recordings; POISE_DATA says where they are")
