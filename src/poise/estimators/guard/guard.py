@@ -324,6 +324,8 @@ def _examined(guard: Guard, state: State, sample: Sample) -> Look:
     elif doubt > 0.0 and has_acc:
         doubt = doubt * guard.settle_time / (guard.settle_time + dt) if doubt > _SURE else 0.0
     lost = lost or (state.pace.waiting > guard.longest_disorder and usual_step == 0.0)
+    if not state.started:  # nothing that could be lost
+        doubt, lost = 0.0, False
     usable = has_acc and has_gyr
     goes_on = state.started and not lost and (state.aligned or not has_mag or not guard.follows_mag)
     flags |= UNSETTLED if goes_on and doubt > guard.valid_doubt else 0
