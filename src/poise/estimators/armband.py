@@ -25,6 +25,7 @@ from typing import Annotated, Literal, NamedTuple, Self
 
 from poise.data.flags import START_IN_MOTION
 from poise.data.packet import Output, Sample
+from poise.estimators.protocol import start
 from poise.math.compiled import compiled
 from poise.math.euler import folded, folds, off_by, rate_map, slope_at
 from poise.math.matrices import Mat3, diagonal, inverse, transpose
@@ -103,6 +104,17 @@ class Armband(NamedTuple):
         return State(
             from_angles(angles), bias, angles, sample.gyr - bias, diagonal(wide, wide, wide), ZERO,
             True, 0.0, 0.0, Vec3(1.0, 1.0, 1.0 if present(sample.mag) else 0.0), sample.acc, sample.gyr, mag,
+        )  # fmt: skip
+
+    def restart(self, state: State, sample: Sample, bias: Vec3) -> State:
+        """A sample that stands for a second or more is nearly as good as a rest; the running variance stays."""
+        begun: State = start(self, sample, bias)
+        if sample.acc_dt < self.start_time:
+            return begun
+        tilt, heading = (3.0 * self.initial_tilt) ** 2, (3.0 * self.initial_heading) ** 2
+        return State(
+            begun.attitude, bias, begun.angles, begun.rate, diagonal(tilt, tilt, heading), state.spread,
+            False, 0.0, sample.acc_dt, ZERO, ZERO, ZERO, ZERO,
         )  # fmt: skip
 
     def step(self, state: State, sample: Sample) -> State:

@@ -48,7 +48,7 @@ from poise.math.vectors import ABSENT, UP, ZERO, Vec3, cross, dot, norm, present
 
 _REST_RATE, _REST_FORCE = 0.1, 0.05  # rad/s with any bias; share of gravity
 _SURE = 0.01  # rad of doubt: no longer worth a thought
-_LEVELLED = 0.15  # rad: how far off the mean force of two seconds in motion may be from up
+_LEVELLED = 0.12  # rad: how far the mean force of three seconds in motion may be from up
 
 
 class Levelling(NamedTuple):
@@ -112,7 +112,7 @@ class Guard(NamedTuple):
     stuck_time: Annotated[float, "s", "a sensor that was lively and repeats a value for longer, hangs"] = 0.2
     astray_angle: Annotated[float, "rad", "a tilt further from gravity, at rest, is wrong", (0.34, 3.2)] = radians(20.0)
     astray_time: Annotated[float, "s", "how long it may stay so before the method starts anew"] = 2.0
-    level_time: Annotated[float, "s", "of samples in motion that the method starts anew from after a loss"] = 2.0
+    level_time: Annotated[float, "s", "of samples in motion that the method starts anew from after a loss"] = 3.0
     valid_doubt: Annotated[float, "rad", "an attitude that may have turned further unmeasured is not valid"] = radians(
         6.0
     )
@@ -139,7 +139,7 @@ class Guard(NamedTuple):
         field = mag if has_mag else ZERO
         return State(
             inner, fresh(gyr, _gyr_limits(self)), fresh(acc if seen else ZERO, _acc_limits(self)),
-            fresh(field, _mag_limits(self, field)), Pace(0.0, 0.0, 0.0, 0), _NOT_YET, 0.0, False,
+            fresh(field, _mag_limits(self, field)), Pace(0.0, 0.0, 0.0, 0, 0), _NOT_YET, 0.0, False,
             seen, aligned, False, False, 0.0, 0.0, 0.0, 0.0, 0.0, flags,
         )  # fmt: skip
 
@@ -214,7 +214,7 @@ class Look(NamedTuple):
 
 _EMPTY = fresh(ZERO, Limits(0.0, 0.0, 0.0, 0.0))
 _NOTHING = Look(
-    _EMPTY, _EMPTY, _EMPTY, Pace(0.0, 0.0, 0.0, 0), Sample(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, 0.0, 0.0),
+    _EMPTY, _EMPTY, _EMPTY, Pace(0.0, 0.0, 0.0, 0, 0), Sample(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, 0.0, 0.0),
     False, False, False, False, 0.0, 0.0, 0.0, False, 0.0, 0,
 )  # fmt: skip
 
@@ -256,7 +256,7 @@ def _examined(guard: Guard, state: State, sample: Sample) -> Look:
     row = timed(state.pace, sample.dt, by_gyr == 0.0 and not by_acc > 0.0 and not by_mag > 0.0, guard.gap)
     dt, flags = row.dt, row.flags
     if dt == 0.0:  # no time can be given to it: nothing moves, and too many of them lose the attitude
-        lost = state.lost or row.pace.waiting > guard.longest_disorder
+        lost = state.lost or row.pace.held > guard.longest_disorder
         nothing = Sample(0.0, gyr.value, ABSENT, ABSENT, 0.0, 0.0, 0.0, 0.0)
         return Look(
             gyr, acc, mag, row.pace, nothing, False, False, False, state.mag_seen,
@@ -323,7 +323,9 @@ def _examined(guard: Guard, state: State, sample: Sample) -> Look:
         lost = lost or doubt > guard.lost_doubt
     elif doubt > 0.0 and has_acc:
         doubt = doubt * guard.settle_time / (guard.settle_time + dt) if doubt > _SURE else 0.0
-    lost = lost or (state.pace.waiting > guard.longest_disorder and usual_step == 0.0)
+    lost = lost or state.pace.held > guard.longest_disorder
+    if not state.started:  # nothing that could be lost
+        doubt, lost = 0.0, False
     usable = has_acc and has_gyr
     goes_on = state.started and not lost and (state.aligned or not has_mag or not guard.follows_mag)
     flags |= UNSETTLED if goes_on and doubt > guard.valid_doubt else 0
@@ -409,7 +411,7 @@ def _gathered(guard: Guard, old: Levelling, sample: Sample, rate: Vec3, usable: 
 
 @compiled
 def _enough(guard: Guard, levelling: Levelling) -> bool:
-    return levelling.time >= (guard.level_time if levelling.moved else 0.05 * guard.level_time)
+    return levelling.time >= (guard.level_time if levelling.moved else 0.04 * guard.level_time)
 
 
 @compiled

@@ -75,7 +75,7 @@ def usual(channel: Channel, value: Vec3, changed: float, limits: Limits) -> bool
 def taken(channel: Channel, value: Vec3, changed: float, dt: float, still: bool) -> Channel:
     """The channel after a sample that is a measurement, *dt* s after the last one."""
     mean = channel.change + dt / (_MEAN_TIME + dt) * (changed - channel.change)
-    every = channel.every + 0.1 * (min(dt, 2.0 * channel.every + 0.05) - channel.every)
+    every = dt if channel.every == 0.0 else channel.every + 0.1 * (min(dt, 2.0 * channel.every + 0.05) - channel.every)
     if changed == 0.0:
         return Channel(
             value, mean, channel.most, channel.equals, channel.same + dt, channel.longest, channel.lively, every, 0

@@ -20,6 +20,7 @@ class Pace(NamedTuple):
     ahead: float  # s that rows were taken to last which their stamps did not show: the next stamps pay it back
     back: float  # s that the clock was set back; should it come back to its old time, that is no gap
     waiting: int  # rows since the last stamp that rose
+    held: int  # rows in a row that no time was given to
 
 
 class Timed(NamedTuple):
@@ -39,7 +40,7 @@ def evenly(pace: Pace, dt: float, gap: float) -> bool:
 @compiled
 def counted_on(pace: Pace, dt: float) -> Pace:
     """The pace after an ordinary step."""
-    return Pace(pace.step + _SHARE * min(dt - pace.step, _MOST * pace.step), 0.0, pace.back, 0)
+    return Pace(pace.step + _SHARE * min(dt - pace.step, _MOST * pace.step), 0.0, pace.back, 0, 0)
 
 
 @compiled
@@ -54,13 +55,13 @@ def timed(pace: Pace, dt: float, repeated: bool, gap: float) -> Timed:
         back = -dt if dt < 0.0 else 0.0
         waiting = pace.waiting + 1
         if 0.0 < back <= gap:  # an older row, late: what it measured is past, and the clock goes on from its stamp
-            return Timed(Pace(usual, pace.ahead + back, pace.back, pace.waiting), 0.0, TIME_DISORDER)
+            return Timed(Pace(usual, pace.ahead + back, pace.back, pace.waiting, pace.held + 1), 0.0, TIME_DISORDER)
         if back > gap:  # the clock was set back: nothing can be set off against it any more
             flags = TIME_DISORDER | CLOCK_JUMP
-            return Timed(Pace(usual, 0.0, pace.back + pace.ahead + back + usual, 0), usual, flags)
+            return Timed(Pace(usual, 0.0, pace.back + pace.ahead + back + usual, 0, 0), usual, flags)
         if repeated or usual == 0.0:
-            return Timed(Pace(usual, pace.ahead, pace.back, waiting), 0.0, TIME_DISORDER)
-        return Timed(Pace(usual, pace.ahead + usual, pace.back, waiting), usual, TIME_DISORDER)
+            return Timed(Pace(usual, pace.ahead, pace.back, waiting, pace.held + 1), 0.0, TIME_DISORDER)
+        return Timed(Pace(usual, pace.ahead + usual, pace.back, waiting, 0), usual, TIME_DISORDER)
 
     left, kept, flags = dt - pace.ahead, pace.back, 0
     mean = dt / (pace.waiting + 1.0)
@@ -68,7 +69,7 @@ def timed(pace: Pace, dt: float, repeated: bool, gap: float) -> Timed:
         share = min(_SHARE * (pace.waiting + 1.0), 1.0)
         usual = usual + share * min(mean - usual, _MOST * usual) if usual > 0.0 else mean
     if kept > 0.0 and dt > gap and 0.0 < left - kept <= gap:  # the clock is back at the time it had
-        return Timed(Pace(usual, 0.0, 0.0, 0), left - kept, CLOCK_JUMP)
+        return Timed(Pace(usual, 0.0, 0.0, 0, 0), left - kept, CLOCK_JUMP)
     ahead = 0.0
     if pace.ahead > 0.0:
         least = 0.5 * usual
@@ -80,4 +81,4 @@ def timed(pace: Pace, dt: float, repeated: bool, gap: float) -> Timed:
         flags |= GAP
     elif usual > 0.0 and not 0.5 * usual < left < 2.0 * usual:
         flags |= JITTER
-    return Timed(Pace(usual, ahead, kept, 0), left, flags)
+    return Timed(Pace(usual, ahead, kept, 0, 0), left, flags)

@@ -1,0 +1,373 @@
+"""What the guard finds in stamps and samples, what it does about it, and that it leaves good data alone."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays_of
+from numpy.typing import NDArray
+
+import poise
+from data_files import data_path
+from helpers import angle_between
+from poise.data.flags import KNOWN, SENTENCES, Flag
+from poise.data.packet import Packet
+from poise.errors import RecordingError
+from poise.math import arrays
+from poise.simulation import PERFECT, Sensor, at_rest, forearm, measure
+
+METHOD = poise.AdaptiveGain()  # every rule is the same for every method; this one compiles quickest
+RATE = 100.0
+AT = 2500  # a row in motion
+
+
+@cache
+def clean() -> poise.Recording:
+    return measure(forearm(60.0, RATE, seed=1), Sensor(jitter=0.0), seed=2)
+
+
+@cache
+def undisturbed() -> poise.Attitude:
+    return poise.estimate(METHOD, clean())
+
+
+def changed(**columns: NDArray[np.float64]) -> poise.Recording:
+    return replace(clean(), **columns)
+
+
+def with_rows(name: str, rows: Any, value: Any) -> poise.Recording:
+    values = getattr(clean(), name).copy()
+    values[rows] = value
+    return changed(**{name: values})
+
+
+def flagged(attitude: poise.Attitude, flag: Flag) -> NDArray[np.intp]:
+    return np.flatnonzero(attitude.flags & np.uint32(flag))
+
+
+def away_deg(attitude: poise.Attitude, rows: Any = slice(None)) -> NDArray[np.float64]:
+    """How far from the attitude without the fault."""
+    return np.degrees(angle_between(attitude.quat, undisturbed().quat[rows]))
+
+
+def told(attitude: poise.Attitude) -> set[Flag]:
+    """The flags that say that something was wrong."""
+    return {flag for flag in Flag if len(flagged(attitude, flag))} - {Flag.REST, Flag.CORRECTION_FORCED}
+
+
+def test_a_clean_recording_is_not_touched() -> None:
+    bare = poise.estimate(METHOD, clean(), guard=None)
+    np.testing.assert_array_equal(undisturbed().quat[1:], bare.quat[1:])
+    assert told(undisturbed()) == set()
+    assert undisturbed().valid.all()
+
+
+@pytest.mark.parametrize(
+    ("name", "true"),
+    [
+        ("broad/01_undisturbed_slow_rotation_A.mat", set()),
+        ("broad/15_undisturbed_fast_translation_A.mat", set()),
+        ("broad/25_disturbed_tapping_B.mat", {Flag.ACC_IGNORED}),  # blows that the gyroscope does not feel
+        ("other/x-io_fusion_sensor_data.csv", {Flag.JITTER}),  # lost rows
+        ("other/phidgets_imu_upside_down.bag", {Flag.JITTER}),  # the computer's stamps
+    ],
+)
+def test_what_is_flagged_on_real_recordings(name: str, true: set[Flag]) -> None:
+    attitude = poise.estimate(METHOD, poise.read(data_path(name)))
+    assert told(attitude) - {Flag.HEADING_ARBITRARY} == true
+    assert len(flagged(attitude, Flag.ACC_IGNORED)) < 20
+    assert attitude.valid.all()
+
+
+# -- stamps -----------------------------------------------------------------------------------------------------------
+
+
+def stamps(rows: Any, value: Any) -> poise.Recording:
+    return with_rows("time", rows, value)
+
+
+def test_a_missing_stamp_is_the_usual_interval() -> None:
+    attitude = poise.estimate(METHOD, stamps([AT, AT + 1, AT + 50], np.nan))
+    assert list(flagged(attitude, Flag.TIME_DISORDER)) == [AT, AT + 1, AT + 50]
+    assert away_deg(attitude).max() < 0.02
+    assert attitude.valid.all()
+
+
+@pytest.mark.parametrize("shift", [-10.0, -1000.0])
+def test_a_clock_that_is_set_back_loses_no_rotation(shift: float) -> None:
+    attitude = poise.estimate(METHOD, changed(time=clean().time + shift * (np.arange(len(clean())) >= AT)))
+    assert list(flagged(attitude, Flag.CLOCK_JUMP)) == [AT]
+    assert away_deg(attitude).max() < 0.02
+
+
+def test_stamps_of_zero_for_a_while_lose_no_rotation() -> None:
+    attitude = poise.estimate(METHOD, stamps(slice(AT, AT + 500), 0.0))
+    assert list(flagged(attitude, Flag.TIME_DISORDER)) == list(range(AT, AT + 500))
+    assert list(flagged(attitude, Flag.CLOCK_JUMP)) == [AT, AT + 500]
+    assert away_deg(attitude).max() < 0.1
+
+
+def test_a_clock_put_forward_is_a_gap() -> None:
+    attitude = poise.estimate(METHOD, changed(time=clean().time + 3600.0 * (np.arange(len(clean())) >= AT)))
+    assert list(flagged(attitude, Flag.GAP)) == [AT]
+    assert attitude.flags[AT] & Flag.LOST
+    assert attitude.valid[AT + 400 :].all()
+    assert away_deg(attitude)[AT + 1000 :].max() < 5.0
+
+
+def test_stamps_in_batches_lose_no_rotation() -> None:
+    last_of_five = np.minimum(np.arange(len(clean())) // 5 * 5 + 4, len(clean()) - 1)
+    attitude = poise.estimate(METHOD, changed(time=clean().time[last_of_five]))
+    assert away_deg(attitude)[500:].max() < 1.0
+    assert attitude.valid.all()
+
+
+def test_swapped_rows_lose_no_rotation() -> None:
+    order = np.arange(len(clean()))
+    first = np.arange(200, len(order) - 1, 100)
+    order[first], order[first + 1] = order[first + 1], order[first].copy()
+    attitude = poise.estimate(METHOD, clean()[order])
+    assert list(flagged(attitude, Flag.TIME_DISORDER)) == list(first + 1)
+    assert away_deg(attitude, order)[np.setdiff1d(np.arange(len(order)), [*first, *(first + 1)])].max() < 0.5
+
+
+def test_a_row_that_comes_twice_counts_once() -> None:
+    twice = np.sort(np.concatenate([np.arange(len(clean())), np.arange(100, 5000, 100)]))
+    attitude = poise.estimate(METHOD, clean()[twice])
+    again = np.flatnonzero(np.diff(twice) == 0) + 1
+    assert list(flagged(attitude, Flag.TIME_DISORDER)) == list(again)
+    np.testing.assert_array_equal(attitude.quat, undisturbed().quat[twice])
+
+
+@pytest.mark.parametrize(("share", "most"), [(0.05, 1.0), (0.3, 4.0)])
+def test_between_lost_rows_the_rate_goes_straight(share: float, most: float) -> None:
+    kept = np.flatnonzero(np.random.default_rng(3).random(len(clean())) >= share)
+    attitude = poise.estimate(METHOD, clean()[kept])
+    assert away_deg(attitude, kept).max() < most
+    jitter = flagged(attitude, Flag.JITTER)
+    assert set(jitter) <= set(np.flatnonzero(np.diff(kept) > 1) + 1)
+    assert attitude.valid.all()
+
+
+def test_stamps_in_milliseconds_are_named_live_too() -> None:
+    part = clean()[:50]
+    for factor, unit in ((1e3, "milliseconds"), (1e6, "microseconds")):
+        stream = poise.Stream(METHOD)
+        with pytest.raises(RecordingError, match=f"{unit}.*Multiply them by {1 / factor:g}"):
+            stream.update(Packet(part.time * factor, part.gyr, part.acc, part.mag))
+        assert stream.update(Packet(part.time, part.gyr, part.acc, part.mag)).valid.all()
+        with pytest.raises(RecordingError, match=f"Multiply them by {1 / factor:g}"):
+            poise.Recording(part.time * factor, part.gyr, part.acc, part.mag)
+
+
+def test_all_stamps_the_same_is_no_time_at_all() -> None:
+    attitude = poise.estimate(METHOD, changed(time=np.zeros(len(clean()))))
+    assert (attitude.flags[1:] & Flag.TIME_DISORDER).all()
+    assert not attitude.valid[30:].any()
+
+
+# -- samples ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "size", "flag"),
+    [("gyr", 10.0, Flag.GYR_IGNORED), ("acc", 50.0, Flag.ACC_IGNORED), ("mag", 300.0, Flag.MAG_IGNORED)],
+)
+def test_spikes_are_left_out(name: str, size: float, flag: Flag) -> None:
+    rng = np.random.default_rng(4)
+    rows = np.sort(rng.choice(np.arange(50, len(clean())), 50, replace=False))
+    spikes = rng.normal(size=(len(rows), 3))
+    values = getattr(clean(), name).copy()
+    values[rows] += size * spikes / np.linalg.norm(spikes, axis=1, keepdims=True)
+    attitude = poise.estimate(METHOD, changed(**{name: values}))
+    found = flagged(attitude, flag)
+    assert set(found) <= set(rows)
+    assert len(found) >= 45
+    assert np.median(away_deg(attitude)) < 0.5
+
+
+def test_a_blow_that_both_sensors_feel_is_no_spike() -> None:
+    gyr, acc = clean().gyr.copy(), clean().acc.copy()
+    gyr[AT] += [5.0, 0.0, 0.0]
+    acc[AT] += [0.0, 60.0, 0.0]
+    assert told(poise.estimate(METHOD, changed(gyr=gyr, acc=acc))) == set()
+
+
+def test_a_step_that_stays_is_no_spike() -> None:
+    mag = clean().mag.copy()
+    mag[AT:] += [200.0, 0.0, 0.0]
+    attitude = poise.estimate(METHOD, changed(mag=mag))
+    assert list(flagged(attitude, Flag.MAG_IGNORED)) == [AT, AT + 1]
+
+
+@pytest.mark.parametrize(
+    ("name", "flag"), [("gyr", Flag.STUCK_GYR), ("acc", Flag.STUCK_ACC), ("mag", Flag.STUCK_MAG)]
+)
+def test_a_sensor_that_hangs_is_found_within_a_quarter_of_a_second(name: str, flag: Flag) -> None:
+    still = int(flagged(undisturbed(), Flag.REST)[50])
+    for at in (AT, still) if name != "gyr" else (AT,):
+        attitude = poise.estimate(METHOD, with_rows(name, slice(at, at + 300), getattr(clean(), name)[at]))
+        found = flagged(attitude, flag)
+        assert at + 19 < found[0] < at + 23
+        assert list(found) == list(range(found[0], at + 300))
+        assert told(attitude) >= {flag}
+
+
+def test_what_repeats_by_nature_does_not_hang() -> None:
+    perfect = measure(at_rest(np.array([1.0, 0, 0, 0]), 20.0, RATE), PERFECT)
+    assert told(poise.estimate(METHOD, perfect)) == set()  # never changed
+    held = np.arange(len(clean())) // 25 * 25  # four samples a second, repeated by a logger
+    assert not told(poise.estimate(METHOD, changed(mag=clean().mag[held]))) & {Flag.STUCK_MAG, Flag.MAG_IGNORED}
+    coarse = np.round(clean().acc / 0.15) * 0.15  # 8 bits: quiet at rest, lively in motion
+    assert not told(poise.estimate(METHOD, changed(acc=coarse))) & {Flag.STUCK_ACC}
+
+
+@pytest.mark.parametrize(("name", "flag"), [("acc", Flag.ACC_MISSING), ("mag", Flag.MAG_MISSING)])
+@pytest.mark.parametrize("value", [0.0, np.nan])
+def test_zeros_and_nan_are_silence_and_flagged_within_a_quarter_of_a_second(name: str, flag: Flag, value: float) -> None:
+    attitude = poise.estimate(METHOD, with_rows(name, slice(AT, AT + 300), value))
+    missing = flagged(attitude, flag)
+    assert AT + 18 < missing[0] < AT + 22
+    assert list(missing) == list(range(missing[0], AT + 300))
+    assert attitude.valid.all()
+
+
+def test_the_silence_of_a_slow_sensor_is_judged_by_its_own_rate() -> None:
+    slow = clean().mag.copy()
+    slow[np.arange(len(slow)) % 50 > 0] = np.nan  # two samples a second
+    assert not len(flagged(poise.estimate(METHOD, changed(mag=slow)), Flag.MAG_MISSING)[30:])
+    slow[AT:] = np.nan
+    missing = flagged(poise.estimate(METHOD, changed(mag=slow)), Flag.MAG_MISSING)
+    assert AT + 50 < missing[-(len(slow) - AT) // 2] < AT + 2000
+    assert missing[-1] == len(slow) - 1
+
+
+@pytest.mark.parametrize(("name", "flag", "end"), [("gyr", Flag.GYR_CLIPPED, 2.3), ("acc", Flag.ACC_CLIPPED, 19.6)])
+def test_the_end_of_a_range_is_learned(name: str, flag: Flag, end: float) -> None:
+    acc = clean().acc.copy()
+    acc[1000:3000, 0] += 30.0 * np.sin(2.0 * np.pi * 2.0 * clean().time[1000:3000])
+    shaken = changed(acc=acc)
+    assert not told(poise.estimate(METHOD, shaken))
+    clipped = np.clip(getattr(shaken, name), -end, end)
+    hit = np.flatnonzero((np.abs(clipped) == end).any(axis=1))
+    found = flagged(poise.estimate(METHOD, replace(shaken, **{name: clipped})), flag)
+    assert len(hit) > 50
+    assert set(found) <= set(hit)
+    assert len(hit) - len(found) == 2, "two equal extremes tell where the range ends"
+
+
+# -- doubt, valid and resets ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seconds", [1.0, 10.0])
+def test_a_lost_gyroscope_is_flagged_at_once_and_started_anew_from_two_seconds(seconds: float) -> None:
+    end = AT + int(seconds * RATE)
+    biased = changed(gyr=clean().gyr + 0.01)
+    gyr = biased.gyr.copy()
+    gyr[AT:end] = np.nan
+    attitude = poise.estimate(METHOD, replace(biased, gyr=gyr))
+    assert list(flagged(attitude, Flag.GYR_MISSING)) == list(range(AT, end))
+    first_invalid = int(np.flatnonzero(~attitude.valid)[0])
+    assert AT < first_invalid < AT + 50
+    (reset,) = attitude.resets()
+    assert end + 150 < reset.row <= end + 205
+    np.testing.assert_array_equal(attitude.bias[reset.row], attitude.bias[AT - 1])
+    assert attitude.valid[end + 400 :].all()
+    assert away_deg(attitude)[end + 400 :].max() < 5.0
+
+
+def test_sigma_grows_while_it_bridges() -> None:
+    recording = with_rows("gyr", slice(AT, AT + 15), np.nan)
+    plain, bridged = (poise.estimate(poise.TwoStage(), r) for r in (clean(), recording))
+    growth = np.sqrt(bridged.sigma**2 - np.minimum(plain.sigma, bridged.sigma) ** 2)[:, 2]
+    assert growth[AT - 1] == 0.0
+    assert (np.diff(growth[AT : AT + 15]) > 0.0).all()
+    assert growth[AT + 14] > np.radians(2.0)
+    assert growth[AT + 1000] < np.radians(1.0)
+    assert np.isnan(poise.estimate(METHOD, recording).sigma).all(), "a method without sigma gets none"
+
+
+def test_a_reset_is_published_with_its_size() -> None:
+    recording = with_rows("gyr", slice(AT, AT + 200), np.nan)
+    attitude = poise.estimate(METHOD, recording)
+    (reset,) = attitude.resets()
+    assert reset.time == recording.time[reset.row]
+    turned = arrays.multiply(attitude.quat[reset.row], arrays.conjugate(attitude.quat[reset.row - 1]))
+    np.testing.assert_allclose(reset.delta, arrays.rotation_vector(turned), atol=1e-12)
+    stream = poise.Stream(METHOD)
+    assert stream.resets == 0
+    assert np.isnan(stream.reset_delta).all()
+    for part in (slice(0, AT + 100), slice(AT + 100, len(recording))):
+        stream.update(Packet(recording.time[part], recording.gyr[part], recording.acc[part], recording.mag[part]))
+    again = poise.Stream(METHOD).restore(stream.save())
+    for s in (stream, again):
+        assert (s.resets, s.reset_time) == (1, reset.time)
+        np.testing.assert_allclose(s.reset_delta, reset.delta, atol=1e-12)
+
+
+def test_live_silence_is_told_without_a_sample() -> None:
+    stream = poise.Stream(METHOD)
+    assert not stream.check(0.0).valid[0]
+    stream.update(Packet(clean().time[:100], clean().gyr[:100], clean().acc[:100], clean().mag[:100]))
+    last = float(clean().time[99])
+    assert stream.check(last + 0.04).valid[0]
+    late = stream.check(last + 0.06)
+    assert late.flags[0] & Flag.SILENT
+    assert not late.valid[0]
+
+
+def test_every_flag_has_a_sentence_and_a_place_in_files() -> None:
+    assert set(SENTENCES) == set(Flag)
+    assert not any(int(flag) & ~KNOWN for flag in Flag)
+
+
+# -- anything at all --------------------------------------------------------------------------------------------------
+
+WILD = st.sampled_from(
+    [0.0, -0.0, 5e-324, -1e-310, 1e-30, 1e-7, 0.01, 1.0, -9.81, 50.0, 1e4, 1e30, 1e308, -1e308, np.inf, -np.inf, np.nan]
+)
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    rows=arrays_of.arrays(float, st.tuples(st.integers(1, 60), st.just(10)), elements=WILD),
+    stamped=st.booleans(),
+    before=st.integers(0, 60),
+)
+def test_whatever_comes_the_state_stays_finite(rows: NDArray[np.float64], stamped: bool, before: int) -> None:
+    good = clean()[1000:1800]
+    stream = poise.Stream(METHOD)
+    if before:
+        part = good[:before]
+        stream.update(Packet(part.time, part.gyr, part.acc, part.mag))
+    time = rows[:, 0] if not stamped else good.time[before] + 0.01 * np.arange(len(rows))
+    parts = []
+    for i in range(len(rows)):
+        parts.append(stream.update(Packet(float(time[i]), rows[i, 1:4], rows[i, 4:7], rows[i, 7:10])))
+    for part in parts:
+        known = np.isfinite(part.quat[0]).all()
+        assert known or not part.valid[0]
+        assert not known or abs(np.linalg.norm(part.quat[0]) - 1.0) < 1e-9
+    rest = good[100:]
+    after = stream.update(Packet(rest.time + 1000.0, rest.gyr, rest.acc, rest.mag))
+    assert np.isfinite(after.table[-1, :10]).all()
+    assert after.valid[-1]
+
+
+@settings(max_examples=30, deadline=None)
+@given(rows=arrays_of.arrays(float, st.tuples(st.integers(0, 30), st.just(10)), elements=WILD))
+def test_a_recording_of_anything_is_refused_or_estimated(rows: NDArray[np.float64]) -> None:
+    kept = rows.copy()
+    try:
+        recording = poise.Recording(rows[:, 0], rows[:, 1:4], rows[:, 4:7], rows[:, 7:10])
+    except RecordingError:
+        return
+    attitude = poise.estimate(METHOD, recording)
+    assert np.isfinite(attitude.quat[attitude.valid]).all()
+    np.testing.assert_array_equal(rows, kept)
