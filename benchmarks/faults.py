@@ -100,7 +100,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--final", action="store_true", help="the trials and seeds that nothing was developed on")
     parser.add_argument("--methods", default="methods", help="methods of poise, by commas (default all)")
     parser.add_argument(
-        "--peers", default="peers", help='peers or packages, by commas (default all installed; "" none)'
+        "--peers", default="vqf,imufusion", help='peers or packages, by commas (default vqf,imufusion; "" none)'
     )
     parser.add_argument(
         "--rows", type=_words, help="groups of the matrix, by commas: E2,E3 (also E1, E16: checks only)"
