@@ -1,6 +1,6 @@
 """The fault matrix: what faults in real recordings do to poise's methods, and to other packages' filters.
 
-    python benchmarks/faults.py [--final] [--methods NAMES] [--peers NAMES] [--rows E2,E3] [--json | --markdown]
+    python benchmarks/faults.py [--final] [--methods NAMES] [--peers NAMES] [--rows E2,E3] [--json | --write]
 
 Every fault is put into BROAD trials at places drawn from stated seeds, and judged against the clean run of the same method
 and against the reference (docs/faults.md says how). Half of the trials and seeds are for developing, the other half, --final,
@@ -31,6 +31,8 @@ from poise import METHODS
 from scores import CHOSEN, HELD_OUT
 
 SEEDS, FINAL_SEEDS = (1, 2), (101, 102)
+PAGE = Path(__file__).parents[1] / "docs" / "faults.md"
+MARK = "<!-- what follows is written by: python benchmarks/faults.py --write -->"
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -40,25 +42,23 @@ def main(arguments: list[str] | None = None) -> int:
     if not files:
         print(f"no such BROAD trials in {data_folder()}; POISE_DATA says where they are", file=sys.stderr)
         return int(bool(os.environ.get("CI")))
-    seeds = options.seeds or (FINAL_SEEDS if options.final else SEEDS)
     groups = options.rows or []
     wanted = [fault.key for fault in FAULTS if not groups or fault.group in groups]
     who = names(f"{options.methods},{options.peers}")
     own = [name for name in who if contender(name).package == "poise"]
+    seeds = options.seeds or (FINAL_SEEDS if options.final else SEEDS)
     todo: list[Any] = [*tasks(files, seeds, who, wanted), *check_tasks(files, seeds[0], own, groups, options.sequences)]
-    if options.jobs > 1:
-        warm({name: METHODS[name]() for name in own})
+    warm({name: METHODS[name]() for name in own})
     found = [part for parts in run(todo, options.jobs) for part in parts]
     cases = sorted(part for part in found if isinstance(part, Case))
     checks = [part for part in found if isinstance(part, Check)]
     if options.json:
-        print(
-            json.dumps(
-                {"cases": document(cases), "checks": [c._asdict() for c in checks]}, indent=1, ensure_ascii=False
-            )
-        )
+        print(json.dumps(document(cases, checks), indent=1, ensure_ascii=False))
+    elif options.write:
+        which = f"Trials {', '.join(file.stem[:2] for file in files)}, seeds {', '.join(map(str, seeds))}"
+        write(f"{which}{' (the half that nothing was developed on)' if options.final else ''}.", cases, checks, who)
     else:
-        print(report(cases, checks, who, options.markdown))
+        print(report(cases, checks, who, markdown=options.markdown))
     return int(failures(cases, who) > 0 or not all(c.met for c in checks))
 
 
@@ -77,16 +77,23 @@ def _perform(task: Any) -> list[Any]:
     return check(task) if isinstance(task, CheckTask) else perform(task)
 
 
-def report(cases: Sequence[Case], checks: Sequence[Check], who: Sequence[str], markdown: bool) -> str:
-    """The summary, the checks, then the tables by fault of poise's methods, then those of the peers."""
+def report(cases: Sequence[Case], checks: Sequence[Check], who: Sequence[str], *, markdown: bool) -> str:
+    """The summary, the checks, the tables by fault of poise's methods and, as plain text only, those of the peers."""
     own = [name for name in who if contender(name).package == "poise"]
-    foreign = [name for name in who if name not in own]
     parts = summary_table(cases, list(who), markdown=markdown) if cases else []
     parts += check_table(checks, own, markdown=markdown)
-    for columns in (own, foreign):
-        if columns:
-            parts += group_tables(cases, columns, markdown=markdown)
+    parts += group_tables(cases, own, markdown=markdown) if own else []
+    foreign = [name for name in who if name not in own]
+    parts += group_tables(cases, foreign, markdown=markdown) if foreign and not markdown else []
     return "\n".join(parts)
+
+
+def write(which: str, cases: Sequence[Case], checks: Sequence[Check], who: Sequence[str]) -> None:
+    """Put the tables into the page, behind its mark."""
+    page = PAGE.read_text(encoding="utf-8")
+    kept = page[: page.index(MARK) + len(MARK)]
+    PAGE.write_text(f"{kept}\n\n{which}\n{report(cases, checks, who, markdown=True)}\n", encoding="utf-8")
+    print(f"wrote the tables of {PAGE.name}", file=sys.stderr)
 
 
 def _files(options: argparse.Namespace) -> list[Path]:
@@ -100,7 +107,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--final", action="store_true", help="the trials and seeds that nothing was developed on")
     parser.add_argument("--methods", default="methods", help="methods of poise, by commas (default all)")
     parser.add_argument(
-        "--peers", default="peers", help='peers or packages, by commas (default all installed; "" none)'
+        "--peers", default="vqf,imufusion", help='peers or packages, by commas (default vqf,imufusion; "" none)'
     )
     parser.add_argument(
         "--rows", type=_words, help="groups of the matrix, by commas: E2,E3 (also E1, E16: checks only)"
@@ -112,6 +119,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     form = parser.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="print every case as JSON")
     form.add_argument("--markdown", action="store_true", help="print Markdown tables")
+    form.add_argument("--write", action="store_true", help="write the tables into docs/faults.md")
     options = parser.parse_args(arguments)
     if options.jobs < 1:
         parser.error(f"--jobs {options.jobs}: expected 1 or more")

@@ -225,12 +225,15 @@ _WHOLE = (
 )
 
 
-def document(cases: Sequence[Case]) -> list[dict[str, Any]]:
-    """The cases as JSON; figures that do not apply are left out, endless ones are text."""
-    return [
-        case._asdict() | {"figures": {k: v if isfinite(v) else "inf" for k, v in case.figures.items() if v == v}}
-        for case in cases
-    ]
+def document(cases: Sequence[Case], checks: Sequence[Check]) -> dict[str, Any]:
+    """Everything as JSON; figures that do not apply are left out, endless ones are text."""
+    return {
+        "cases": [
+            case._asdict() | {"figures": {k: v if isfinite(v) else "inf" for k, v in case.figures.items() if v == v}}
+            for case in cases
+        ],
+        "checks": [check._asdict() for check in checks],
+    }
 
 
 def failures(cases: Sequence[Case], names: Iterable[str]) -> int:
