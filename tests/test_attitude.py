@@ -96,7 +96,7 @@ def test_fields_are_views_of_one_table_in_a_frozen_record() -> None:
 
 def test_valid_is_the_flags_rule() -> None:
     attitude = made()
-    not_to_be_acted_on = {Flag.INITIALISING, Flag.LOST, Flag.SILENT}
+    not_to_be_acted_on = {Flag.INITIALISING, Flag.LOST, Flag.SILENT, Flag.UNSETTLED}
     for flag in Flag:
         attitude.flags[:] = flag | Flag.REST
         assert attitude.valid.all() == (flag not in not_to_be_acted_on)

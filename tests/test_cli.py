@@ -272,7 +272,7 @@ def test_real_recordings_with_no_options(
     monkeypatch.chdir(tmp_path)
     assert run(["estimate", *files, "-m", method, "--json"]) == 0
     results: list[dict[str, Any]] = json.loads(capsys.readouterr().out)["results"]
-    assert [result["valid"] for result in results] == pytest.approx([1.0] * 4)
+    assert [result["valid"] for result in results] == pytest.approx([1.0] * 4, abs=2e-3)  # tilt: a start in motion
     kind = "total" if "declination" in poise.METHODS[method]._fields else "inclination"
     errors = [result["error_deg"][kind] for result in results[:3]]
     assert errors[0] < 8.0
