@@ -97,7 +97,9 @@ def from_the_reference(method: poise.Gated, recording: Recording) -> poise.Error
     """Errors from the reference's first attitude on, without RestBias; integration and print without Guard too."""
     assert recording.truth is not None
     recording = recording[int(np.argmax(np.isfinite(recording.truth.quat).all(axis=1))) :]
-    guard = method not in (PURE, poise.Gated.as_printed()) or None  # it would start them anew where they have drifted off
+    guard = (
+        method not in (PURE, poise.Gated.as_printed()) or None
+    )  # it would start them anew where they have drifted off
     attitude = poise.estimate(method, recording, start=recording.truth, rest_bias=False, guard=guard)
     return poise.evaluate(attitude, recording)
 

@@ -206,9 +206,7 @@ def test_a_step_that_stays_is_no_spike() -> None:
     assert list(flagged(attitude, Flag.MAG_IGNORED)) == [AT, AT + 1]
 
 
-@pytest.mark.parametrize(
-    ("name", "flag"), [("gyr", Flag.STUCK_GYR), ("acc", Flag.STUCK_ACC), ("mag", Flag.STUCK_MAG)]
-)
+@pytest.mark.parametrize(("name", "flag"), [("gyr", Flag.STUCK_GYR), ("acc", Flag.STUCK_ACC), ("mag", Flag.STUCK_MAG)])
 def test_a_sensor_that_hangs_is_found_within_a_quarter_of_a_second(name: str, flag: Flag) -> None:
     still = int(flagged(undisturbed(), Flag.REST)[50])
     for at in (AT, still) if name != "gyr" else (AT,):
@@ -230,7 +228,9 @@ def test_what_repeats_by_nature_does_not_hang() -> None:
 
 @pytest.mark.parametrize(("name", "flag"), [("acc", Flag.ACC_MISSING), ("mag", Flag.MAG_MISSING)])
 @pytest.mark.parametrize("value", [0.0, np.nan])
-def test_zeros_and_nan_are_silence_and_flagged_within_a_quarter_of_a_second(name: str, flag: Flag, value: float) -> None:
+def test_zeros_and_nan_are_silence_and_flagged_within_a_quarter_of_a_second(
+    name: str, flag: Flag, value: float
+) -> None:
     attitude = poise.estimate(METHOD, with_rows(name, slice(AT, AT + 300), value))
     missing = flagged(attitude, flag)
     assert AT + 18 < missing[0] < AT + 22
