@@ -477,8 +477,8 @@ def _gyr_limits(guard: Guard) -> Limits:
 
 @compiled
 def _acc_limits(guard: Guard) -> Limits:
-    """A jump of 3 g takes a blow; no accelerometer ends below 2 g."""
-    return Limits(3.0 * guard.gravity, 18.0, 1e-6, guard.largest_acc)
+    """A jump of 4 g takes a blow; no accelerometer ends below 2 g."""
+    return Limits(4.0 * guard.gravity, 18.0, 1e-6, guard.largest_acc)
 
 
 @compiled
