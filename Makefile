@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 RESULTS := build/demo
 
-.PHONY: demo test lint accuracy speed clean
+.PHONY: demo test lint accuracy speed faults clean
 
 $(VENV)/ready: pyproject.toml
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "poise needs Python 3.11 or newer; set PYTHON=")'
@@ -30,6 +30,9 @@ accuracy: $(VENV)/ready
 
 speed: $(VENV)/ready
 	$(BIN)/python benchmarks/speed.py
+
+faults: $(VENV)/ready
+	$(BIN)/python benchmarks/faults.py
 
 clean:
 	rm -rf $(VENV) build
