@@ -118,3 +118,20 @@ def test_mistakes(folder: Path, capsys: pytest.CaptureFixture[str], arguments: l
     assert run(arguments) == code
     lines = capsys.readouterr().err.strip().splitlines()
     assert len(lines) == 1 and re.search(says, lines[0]), lines
+
+
+def test_a_file_in_chunks_is_refused_and_repaired_alike(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    told = ["estimate", "glove.csv", "--units", "gyr=deg/s,acc=m/s2", "-o", "long.parquet", "--limit", "whole=1"]
+    assert run(told) == 1
+    assert '--remap "gyr=y x z"' in capsys.readouterr().err
+    assert not list(folder.glob("long*"))
+    assert run([*told, "--remap", "gyr=y x z"]) == 0
+    assert run([*told[:4], "-o", "short.parquet", "--remap", "gyr=y x z"]) == 0
+    np.testing.assert_array_equal(
+        poise.read_attitude(folder / "long.parquet").table, poise.read_attitude(folder / "short.parquet").table
+    )
+
+
+def test_the_hemisphere_is_north_or_south(right: poise.Recording) -> None:
+    with pytest.raises(poise.PoiseError, match="hemisphere: expected 'north' or 'south', found 'west'"):
+        poise.diagnose(right, hemisphere="west")  # type: ignore[arg-type]

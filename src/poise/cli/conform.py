@@ -188,7 +188,7 @@ def _module_named(name: str) -> Any:
 
 def _attribute(module: Any, place: str, name: str) -> Any:
     there = _callables(module)
-    offer = f"it has {', '.join(there)}" if there else "it defines nothing that can be called"
+    offer = f"it has {', '.join(there)}" if there else "name a class or function of it"
     if not name:
         raise FormatError(f"{place}: which of it? {place}:NAME; {offer}")
     thing = module

@@ -52,8 +52,10 @@ def estimate(
 
     reading = corrected.with_profile(reading)
     chunks = read_chunks(file, ROWS, **reading.as_arguments())
+    if not reading.force:
+        check_before(reading, chunks)
     errors, shown = ErrorSums(), Thinned(_SHOWN)
-    accounts: dict[str, Account] = {"checked": FirstChecked(reading, chunks), "errors": errors}
+    accounts: dict[str, Account] = {"errors": errors}
     if picture:
         accounts["shown"] = shown
     written = estimate_file(
@@ -100,28 +102,23 @@ def estimate(
     }
 
 
-class FirstChecked:
-    """Refuses a file whose first chunk has units or axes that are surely wrong, as :func:`corrected.read` does."""
+def check_before(reading: Reading, chunks: Chunks) -> None:
+    """Refuse a file with units or axes that are surely wrong, as :func:`corrected.read` does, by a sample of its rows.
 
-    def __init__(self, reading: Reading, chunks: Chunks) -> None:
-        self._reading, self._chunks, self._done = reading, chunks, False
-
-    def add(self, recording: Recording, attitude: Attitude) -> None:
-        """The next rows."""
-        if not self._done:
-            try:
-                corrected.check(self._reading, recording, self._chunks.sniffed)
-            except RecordingError as error:
-                raise FormatError(f"{self._chunks.source}: {error}") from None
-        self._done = True
-
-    def state(self) -> dict[str, NDArray[Any]]:
-        """Whether it was done."""
-        return {"done": np.array(self._done)}
-
-    def restore(self, state: dict[str, NDArray[Any]]) -> None:
-        """Go on after it was done, or not."""
-        self._done = bool(state["done"])
+    That is all of a short file, and stretches spread over a long one, each looked at by itself: a file may begin with an
+    hour of rest, which tells nothing.
+    """
+    sample = chunks.sample()
+    steps = np.diff(sample.time)
+    known = steps[steps > 0]
+    apart = np.flatnonzero(~(np.abs(steps) < 1.0 + 10.0 * np.median(known))) + 1 if len(known) else np.empty(0, int)
+    try:
+        for rows in np.split(np.arange(len(sample)), apart):
+            if len(rows) > 1:
+                part = sample[int(rows[0]) : int(rows[-1]) + 1]
+                corrected.check(reading, corrected.applied(reading, part), chunks.sniffed)
+    except RecordingError as error:
+        raise FormatError(f"{chunks.source}: {error}") from None
 
 
 class ErrorSums:

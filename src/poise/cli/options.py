@@ -192,8 +192,8 @@ class Running:
             usage(f"--offline goes with --method self-calibrating, not with {self.method}")
         if self.start_from is not None and not hasattr(cls, "start_from"):
             usage(f"--start-from goes with --method self-calibrating, not with {self.method}, which learns nothing")
-        if self.slew is not None and not 0.0 <= self.slew < math.inf:
-            usage(f"--slew {self.slew}: expected degrees a second, 0 or more")
+        if self.slew is not None and not 0.0 <= self.slew <= 1e9:
+            usage(f"--slew {self.slew}: expected degrees a second, 0 to 1e9")
         if self.slew is not None and self.offline:
             usage("--slew bounds corrections as they come; --offline knows them all before: give one")
         try:

@@ -9,6 +9,7 @@ from poise.data.recording import Recording
 from poise.doctor import axes, offsets, samples, timing, turning, units
 from poise.doctor.axes import Hemisphere
 from poise.doctor.findings import RANK, Diagnosis, Evidence, Finding
+from poise.errors import RecordingError
 
 __all__ = ["Corrections", "Diagnosis", "Finding", "Hemisphere", "diagnose"]
 
@@ -31,6 +32,8 @@ def diagnose(
     ones.
     """
     given, recording = recording, _bounded(recording)
+    if hemisphere not in ("north", "south"):
+        raise RecordingError(f"hemisphere: expected 'north' or 'south', found {hemisphere!r}")
     found, evidence = _of_units_and_axes(recording, hemisphere)
     if thorough:
         fixed = Diagnosis(recording, tuple(found)).repairs.apply(recording)

@@ -32,7 +32,7 @@ def smooth(
     start: Attitude | ArrayLike | None = None,
     *,
     bias: ArrayLike = (0.0, 0.0, 0.0),
-    guard: bool = True,
+    guard: bool | None = True,
     window: float = 600.0,
     overlap: float = 200.0,
     start_from: Learned | Attitude | None = None,
