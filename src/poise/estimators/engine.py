@@ -177,12 +177,12 @@ class Stream:
         When the last sample is older than *silence* (0.05 s unless told) the row is flagged SILENT and not valid: the
         attitude it holds is the last one known.
         """
+        if not isinstance(now, (int, float)):
+            raise RecordingError(f"now: expected seconds on the packets' clock, found {now!r}")
         if self._latest is None:
             row = Attitude.of([now], np.full((1, 4), nan))
             row.flags[:] |= np.uint32(SILENT)
             return row
-        if not isinstance(now, (int, float)):
-            raise RecordingError(f"now: expected seconds on the packets' clock, found {now!r}")
         row = self._latest[-1:]
         flags = row.flags.copy()
         if not now - self._aside[CLOCK] <= self._silence:
