@@ -285,13 +285,13 @@ def check_unit_of_time(time: Floats, even: bool = False) -> None:
 
     *even*: only where three steps or more are alike, so that a loss in a few live samples is not taken for a unit.
     """
-    with np.errstate(invalid="ignore"):  # between two infinities
+    with np.errstate(invalid="ignore", over="ignore"):  # between infinities, or nearly
         steps = np.diff(time)
     if even and not (len(steps) > 2 and steps.min() > 0.0 and steps.max() < 3.0 * steps.min()):
         return
     if np.sum(steps < 0) > max(2, 0.5 * len(steps)):
         raise RecordingError(f"time: {np.sum(steps < 0)} of {len(steps)} steps go backwards; reverse the rows")
-    steps = steps[np.isfinite(steps) & (steps > 0)]
+    steps = steps[(steps > 0) & (steps < 1e300)]  # the median's mean of two must not overflow
     if len(steps) < 2 or (step := float(np.median(steps))) <= _SLOWEST:
         return
     factor, unit, per_second = min(_UNITS_OF_TIME, key=lambda u: abs(np.log(step * u[0] / 0.01)))

@@ -5,63 +5,27 @@ from __future__ import annotations
 from math import cos, pi, radians, sqrt
 from typing import Annotated, Any, NamedTuple
 
-from poise.data.flags import (
-    ACC_CLIPPED,
-    ACC_IGNORED,
-    ACC_MISSING,
-    GAP,
-    GYR_CLIPPED,
-    GYR_IGNORED,
-    GYR_MISSING,
-    HEADING_ARBITRARY,
-    INITIALISING,
-    LOST,
-    MAG_CLIPPED,
-    MAG_IGNORED,
-    MAG_MISSING,
-    RESET,
-    STUCK_ACC,
-    STUCK_GYR,
-    STUCK_MAG,
-    UNSETTLED,
-)
+from poise.data.flags import HEADING_ARBITRARY, INITIALISING, LOST, RESET, UNSETTLED
 from poise.data.packet import Output, Sample
-from poise.estimators.guard.samples import (
-    CLIPPED,
-    SPIKE,
-    STUCK,
-    Channel,
-    Limits,
-    change,
-    fresh,
-    judged,
-    jumped,
-    stirred,
-    taken,
-    usual,
+from poise.estimators.guard.levelling import (
+    NOT_YET,
+    REST_RATE,
+    Levelling,
+    at_rest,
+    enough,
+    gathered,
+    mean_of,
+    to_restart_from,
 )
-from poise.estimators.guard.stamps import Pace, counted_on, evenly, timed
+from poise.estimators.guard.look import NOTHING, Look, acc_limits, common, examined, gyr_limits, mag_limits, plain
+from poise.estimators.guard.samples import Channel, change, fresh, taken
+from poise.estimators.guard.stamps import Pace, counted_on
 from poise.estimators.protocol import output, restart, resting_sample, start, step, with_sensors
 from poise.math.compiled import compiled
-from poise.math.quaternions import IDENTITY, Quat, conjugate, exp, renormalized, rotate, shortest_turn, up_in_body
-from poise.math.vectors import ABSENT, UP, ZERO, Vec3, cross, dot, norm, present, unit, within
+from poise.math.quaternions import IDENTITY, Quat, up_in_body
+from poise.math.vectors import ABSENT, ZERO, Vec3, dot, norm, present, within
 
-_REST_RATE, _REST_FORCE = 0.1, 0.05  # rad/s with any bias; share of gravity
-_SURE = 0.01  # rad of doubt: no longer worth a thought
 _LEVELLED = 0.12  # rad: how far the mean force of three seconds in motion may be from up
-
-
-class Levelling(NamedTuple):
-    """Samples after a loss, gathered to start anew from: one accelerometer sample in motion is no level."""
-
-    turn: Quat  # from the body of now to that of the first of them, by the gyroscope
-    force: Vec3  # m/s²·s, in the body of the first: the sum of the specific force
-    field: Vec3  # µT·s
-    time: float  # s
-    moved: bool  # one of them was not at rest
-
-
-_NOT_YET = Levelling(IDENTITY, ZERO, ZERO, 0.0, False)
 
 
 class State(NamedTuple):
@@ -126,8 +90,8 @@ class Guard(NamedTuple):
     def start(self, sample: Sample, bias: Vec3) -> State:
         acc = sample.acc if dot(sample.acc, sample.acc) <= self.largest_acc**2 else ABSENT
         mag = sample.mag if dot(sample.mag, sample.mag) <= self.largest_mag**2 else ABSENT
-        acc = acc if dot(acc, acc) > _acc_limits(self).least else ABSENT
-        mag = mag if dot(mag, mag) > _mag_limits(self, ZERO).least else ABSENT
+        acc = acc if dot(acc, acc) > acc_limits(self).least else ABSENT
+        mag = mag if dot(mag, mag) > mag_limits(self, ZERO).least else ABSENT
         gyr = sample.gyr if dot(sample.gyr, sample.gyr) <= self.largest_gyr**2 else bias  # NaN is not
         seen = present(acc)
         placeholder = resting_sample(IDENTITY, self.declination)
@@ -138,30 +102,30 @@ class Guard(NamedTuple):
         flags = (0 if seen else INITIALISING) | (0 if aligned else HEADING_ARBITRARY)
         field = mag if has_mag else ZERO
         return State(
-            inner, fresh(gyr, _gyr_limits(self)), fresh(acc if seen else ZERO, _acc_limits(self)),
-            fresh(field, _mag_limits(self, field)), Pace(0.0, 0.0, 0.0, 0, 0), _NOT_YET, 0.0, False,
+            inner, fresh(gyr, gyr_limits(self)), fresh(acc if seen else ZERO, acc_limits(self)),
+            fresh(field, mag_limits(self, field)), Pace(0.0, 0.0, 0.0, 0, 0), NOT_YET, 0.0, False,
             seen, aligned, False, False, 0.0, 0.0, 0.0, 0.0, 0.0, flags,
         )  # fmt: skip
 
     def step(self, state: State, sample: Sample) -> State:
         """A common row is told by a few comparisons; all others are looked at one by one."""
-        common = _common(self, state, sample)
-        look = _NOTHING
-        if common:
-            clean = _plain(self, state, sample)
+        ordinary = common(self, state, sample)
+        look = NOTHING
+        if ordinary:
+            clean = plain(self, state, sample)
         else:
-            look = _examined(self, state, sample)
+            look = examined(self, state, sample)
             if not look.goes_on:
                 return _waiting(self, state, look)
             clean = look.sample
         inner = step(self.method, state.inner, clean)
         astray = state.astray
-        if (common or look.usable) and within(clean.gyr, _REST_RATE) and _at_rest(clean, self.gravity):
+        if (ordinary or look.usable) and within(clean.gyr, REST_RATE) and at_rest(clean, self.gravity):
             astray = _astray(self, astray, clean, output(self.method, inner, clean).attitude)
         lost = astray > self.astray_time
         flags = (LOST if lost else 0) | (0 if state.aligned else HEADING_ARBITRARY)
-        if common:
-            still, silent = within(clean.gyr, _REST_RATE), state.mag_absent + clean.dt
+        if ordinary:
+            still, silent = within(clean.gyr, REST_RATE), state.mag_absent + clean.dt
             mag, has_mag = state.mag, present(clean.mag)
             if has_mag:
                 mag = taken(mag, clean.mag, change(mag, clean.mag), silent, still)
@@ -172,7 +136,7 @@ class Guard(NamedTuple):
                 lost, 0.0, 0.0, 0.0 if has_mag else silent, astray, 0.0, flags,
             )  # fmt: skip
         return State(
-            inner, look.gyr, look.acc, look.mag, look.pace, _NOT_YET, clean.dt, look.usable and look.doubt == 0.0,
+            inner, look.gyr, look.acc, look.mag, look.pace, NOT_YET, clean.dt, look.usable and look.doubt == 0.0,
             True, state.aligned, look.mag_seen, lost, look.gyr_absent, look.acc_absent, look.mag_absent, astray,
             look.doubt, look.flags | flags,
         )  # fmt: skip
@@ -192,149 +156,6 @@ class Guard(NamedTuple):
         return Output(out.dt, attitude, out.rate, out.bias, sigma, out.bias_sigma, out.flags | state.flags)
 
 
-class Look(NamedTuple):
-    """What a row is found to be."""
-
-    gyr: Channel
-    acc: Channel
-    mag: Channel
-    pace: Pace
-    sample: Sample  # what the method may see of it, and how long it lasts
-    goes_on: bool  # the method steps; otherwise it waits, or is started
-    usable: bool  # gyroscope and accelerometer were measured
-    gathers: bool  # and nothing turned unmeasured: good for starting anew from
-    mag_seen: bool
-    gyr_absent: float  # s
-    acc_absent: float
-    mag_absent: float
-    lost: bool
-    doubt: float  # rad
-    flags: int
-
-
-_EMPTY = fresh(ZERO, Limits(0.0, 0.0, 0.0, 0.0))
-_NOTHING = Look(
-    _EMPTY, _EMPTY, _EMPTY, Pace(0.0, 0.0, 0.0, 0, 0), Sample(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, 0.0, 0.0),
-    False, False, False, False, 0.0, 0.0, 0.0, False, 0.0, 0,
-)  # fmt: skip
-
-
-@compiled
-def _common(guard: Guard, state: State, sample: Sample) -> bool:
-    """Whether nothing has to be looked at: an even step, and samples as they usually are."""
-    gyr, acc, mag = state.gyr, state.acc, state.mag
-    by_mag = change(mag, sample.mag)
-    if by_mag - by_mag == 0.0:
-        field = usual(mag, sample.mag, by_mag, _mag_limits(guard, mag.value)) and state.aligned and state.mag_seen
-    else:  # a large enough number may overflow in the square: that is for a closer look
-        silent = state.mag_absent + sample.dt > max(guard.mag_loss, 3.0 * mag.every)
-        field = not present(sample.mag) and not (silent and state.mag_seen)
-    return (
-        state.plain
-        and not state.lost
-        and field
-        and evenly(state.pace, sample.dt, guard.gap)
-        and usual(gyr, sample.gyr, change(gyr, sample.gyr), _gyr_limits(guard))
-        and usual(acc, sample.acc, change(acc, sample.acc), _acc_limits(guard))
-    )
-
-
-@compiled
-def _plain(guard: Guard, state: State, sample: Sample) -> Sample:
-    """A common row as the method may see it."""
-    dt, field = sample.dt, sample.mag if present(sample.mag) else ABSENT
-    return Sample(
-        dt, sample.gyr, sample.acc, field, sample.acc_age, sample.mag_age, dt, min(state.mag_absent + dt, guard.gap)
-    )  # fmt: skip
-
-
-@compiled
-def _examined(guard: Guard, state: State, sample: Sample) -> Look:
-    """A row that is not a common one: its stamp and each of its samples is judged."""
-    gyr, acc, mag = state.gyr, state.acc, state.mag
-    by_gyr, by_acc, by_mag = change(gyr, sample.gyr), change(acc, sample.acc), change(mag, sample.mag)
-    row = timed(state.pace, sample.dt, by_gyr == 0.0 and not by_acc > 0.0 and not by_mag > 0.0, guard.gap)
-    dt, flags = row.dt, row.flags
-    if dt == 0.0:  # no time can be given to it: nothing moves, and too many of them lose the attitude
-        lost = state.lost or row.pace.held > guard.longest_disorder
-        nothing = Sample(0.0, gyr.value, ABSENT, ABSENT, 0.0, 0.0, 0.0, 0.0)
-        return Look(
-            gyr, acc, mag, row.pace, nothing, False, False, False, state.mag_seen,
-            state.gyr_absent, state.acc_absent, state.mag_absent, lost, state.doubt, flags,
-        )  # fmt: skip
-
-    # What the samples are worth
-    gyr_age, acc_age, mag_age = state.gyr_absent + dt, state.acc_absent + dt, state.mag_absent + dt
-    still = within(gyr.value, _REST_RATE)
-    gyr_limits, acc_limits, mag_limits = _gyr_limits(guard), _acc_limits(guard), _mag_limits(guard, mag.value)
-    usual_step = row.pace.step
-    # A jump of the rate is an angular acceleration, which an accelerometer 1 cm off the axis feels
-    felt = max(0.1 * guard.gravity, 0.01 * sqrt(by_gyr) / dt)
-    spike = jumped(gyr, by_gyr, gyr_age, usual_step, gyr_limits) and not stirred(acc, by_acc, felt)
-    found = judged(gyr, sample.gyr, gyr_age, spike, not still, still, guard.stuck_time, gyr_limits)
-    gyr = found.channel
-    has_gyr = present(found.value)
-    spiked = present(sample.acc) and jumped(acc, by_acc, acc_age, usual_step, acc_limits)
-    shaken = has_gyr and stirred(state.gyr, by_gyr, _REST_RATE)
-    gyr_verdict = found.verdict
-    turning = _across(gyr.value, acc.value) > _REST_RATE
-    found = judged(acc, sample.acc, acc_age, spiked and not shaken, turning, still, guard.stuck_time, acc_limits)
-    acc, acc_verdict = found.channel, found.verdict
-    has_acc = present(found.value) and acc_verdict != CLIPPED
-    turning = _across(gyr.value, mag.value) > _REST_RATE
-    spiked = state.mag_seen and jumped(mag, by_mag, mag_age, usual_step, mag_limits)
-    if not state.mag_seen and mag.most == 0.0 and present(sample.mag):
-        mag, mag_limits = fresh(sample.mag, _mag_limits(guard, sample.mag)), _mag_limits(guard, sample.mag)
-    found = judged(mag, sample.mag, mag_age, spiked, turning, still, guard.stuck_time, mag_limits)
-    mag, mag_verdict = found.channel, found.verdict
-    has_mag = present(found.value) and mag_verdict != CLIPPED
-    flags |= _told(gyr_verdict, GYR_IGNORED, STUCK_GYR, GYR_CLIPPED)
-    flags |= _told(acc_verdict, ACC_IGNORED, STUCK_ACC, ACC_CLIPPED)
-    if guard.follows_mag:
-        flags |= _told(mag_verdict, MAG_IGNORED, STUCK_MAG, MAG_CLIPPED)
-
-    # What is absent, and since when
-    gyr_absent = 0.0 if has_gyr else gyr_age
-    acc_absent = 0.0 if has_acc else acc_age
-    mag_absent = 0.0 if has_mag else mag_age
-    mag_seen = state.mag_seen or has_mag
-    flags |= 0 if has_gyr else GYR_MISSING
-    flags |= ACC_MISSING if acc_absent > max(guard.acc_loss, 3.0 * acc.every) else 0
-    silent = mag_absent > max(guard.mag_loss, 3.0 * mag.every)
-    flags |= MAG_MISSING if mag_seen and guard.follows_mag and silent else 0
-    rate = gyr.value
-    clean = Sample(
-        dt, _over_loss(guard, state, rate, dt, usual_step) if has_gyr else rate,
-        sample.acc if has_acc else ABSENT, sample.mag if has_mag else ABSENT, sample.acc_age, sample.mag_age,
-        min(acc_age, guard.gap), min(mag_age, guard.gap),
-    )  # fmt: skip
-
-    # How far it may have turned unmeasured
-    doubt, lost = state.doubt, state.lost
-    hidden = 0.0  # rad
-    if not has_gyr or flags & GAP != 0:
-        stuck = state.gyr.same if gyr_verdict == STUCK and state.gyr_absent == 0.0 else 0.0
-        hidden = 0.5 * (norm(rate) + 0.5) * (dt + stuck)  # a rate goes on about half as wrong as it is large
-        lost = lost or gyr_absent > guard.longest_loss or dt > guard.longest_loss
-    elif gyr_verdict == CLIPPED:
-        hidden = 0.25 * gyr.most * dt
-    if hidden > 0.0:
-        doubt = min(doubt + hidden, pi)
-        lost = lost or doubt > guard.lost_doubt
-    elif doubt > 0.0 and has_acc:
-        doubt = doubt * guard.settle_time / (guard.settle_time + dt) if doubt > _SURE else 0.0
-    lost = lost or state.pace.held > guard.longest_disorder
-    if not state.started:  # nothing that could be lost
-        doubt, lost = 0.0, False
-    usable = has_acc and has_gyr
-    goes_on = state.started and not lost and (state.aligned or not has_mag or not guard.follows_mag)
-    flags |= UNSETTLED if goes_on and doubt > guard.valid_doubt else 0
-    return Look(
-        gyr, acc, mag, row.pace, clean, goes_on, usable, usable and hidden == 0.0, mag_seen,
-        gyr_absent, acc_absent, mag_absent, lost, doubt, flags,
-    )  # fmt: skip
-
-
 @compiled
 def _waiting(guard: Guard, state: State, look: Look) -> State:
     """The method does not step: it waits for samples to start from, or is started from this one."""
@@ -342,8 +163,8 @@ def _waiting(guard: Guard, state: State, look: Look) -> State:
     levelling, ready = state.levelling, False
     if sample.dt > 0.0:
         bias = output(guard.method, state.inner, sample).bias
-        levelling = _gathered(guard, levelling, sample, sample.gyr - bias, look.gathers)
-        ready = look.usable and (not lost or _enough(guard, levelling))
+        levelling = gathered(guard, levelling, sample, sample.gyr - bias, look.gathers)
+        ready = look.usable and (not lost or enough(guard, levelling))
     if not ready:
         if not state.started:
             flags |= INITIALISING
@@ -359,83 +180,20 @@ def _waiting(guard: Guard, state: State, look: Look) -> State:
         )  # fmt: skip
     before = output(guard.method, state.inner, sample)
     if lost:
-        sample = _mean(levelling, sample)
+        sample = mean_of(levelling, sample)
         doubt = _LEVELLED if levelling.moved else 0.0
     has_mag = present(sample.mag)
     if state.started:
         flags |= RESET
-        sample = _restart(guard, before.attitude, sample, lost)
+        sample = to_restart_from(guard, before.attitude, sample, lost)
     inner = restart(guard.method, state.inner, sample, before.bias)  # from the placeholder too: what it knew stays
     kept = state.aligned and (not state.mag_seen or not guard.follows_mag)
     aligned = kept if state.started and not guard.follows_mag else has_mag or (state.started and kept)
     flags |= (0 if aligned else HEADING_ARBITRARY) | (UNSETTLED if doubt > guard.valid_doubt else 0)
     return State(
-        inner, look.gyr, look.acc, look.mag, look.pace, _NOT_YET, sample.dt, doubt == 0.0,
+        inner, look.gyr, look.acc, look.mag, look.pace, NOT_YET, sample.dt, doubt == 0.0,
         True, aligned, look.mag_seen, False, look.gyr_absent, look.acc_absent, look.mag_absent, 0.0, doubt, flags,
     )  # fmt: skip
-
-
-@compiled
-def _over_loss(guard: Guard, state: State, rate: Vec3, dt: float, usual_step: float) -> Vec3:
-    """The mean rate of a step in which rows were lost: between two samples the rate goes straight from one to the other.
-
-    Where rows were there and the gyroscope's samples were not, the last rate was taken for them: made good here.
-    """
-    before = state.gyr.value
-    if state.gyr_absent > 0.0:
-        return rate + (0.5 * state.gyr_absent / dt) * (rate - before) if state.gyr_absent <= 0.25 * guard.gap else rate
-    if usual_step > 0.0 and 1.5 * usual_step < dt <= guard.gap:
-        return rate + (0.5 * (dt - usual_step) / dt) * (before - rate)
-    return rate
-
-
-@compiled
-def _told(verdict: int, spike: int, stuck: int, clipped: int) -> int:
-    if verdict == SPIKE:
-        return spike
-    if verdict == STUCK:
-        return stuck
-    return clipped if verdict == CLIPPED else 0
-
-
-@compiled
-def _gathered(guard: Guard, old: Levelling, sample: Sample, rate: Vec3, usable: bool) -> Levelling:
-    """The samples since the loss, with this one; a row that lacks one of the two begins anew."""
-    if not usable:
-        return _NOT_YET
-    turn = renormalized(old.turn * exp(sample.dt * rate)) if old.time > 0.0 else IDENTITY
-    force = old.force + sample.acc_dt * rotate(turn, sample.acc)
-    field = old.field + sample.mag_dt * rotate(turn, sample.mag) if present(sample.mag) else old.field
-    return Levelling(turn, force, field, old.time + sample.acc_dt, old.moved or not _at_rest(sample, guard.gravity))
-
-
-@compiled
-def _enough(guard: Guard, levelling: Levelling) -> bool:
-    return levelling.time >= (guard.level_time if levelling.moved else 0.04 * guard.level_time)
-
-
-@compiled
-def _mean(levelling: Levelling, sample: Sample) -> Sample:
-    """The sample with the mean force and field of the levelling, in the body of now."""
-    back = conjugate(levelling.turn)
-    acc = rotate(back, levelling.force / levelling.time)
-    mag = rotate(back, levelling.field / levelling.time) if dot(levelling.field, levelling.field) > 0.0 else sample.mag
-    acc = acc if dot(acc, acc) > 1e-6 else sample.acc
-    return Sample(sample.dt, sample.gyr, acc, mag, 0.0, 0.0, levelling.time, levelling.time)
-
-
-@compiled
-def _restart(guard: Guard, attitude: Quat, sample: Sample, lost: bool) -> Sample:
-    """The sample to start anew from: what is known of tilt and heading stays, the rest is the sample's.
-
-    After a loss the tilt is the accelerometer's; a first magnetometer sample changes the heading only, and that of a
-    method without magnetometer stays what it was.
-    """
-    if lost:
-        attitude = shortest_turn(unit(rotate(attitude, sample.acc)), UP) * attitude
-    rest = resting_sample(attitude, guard.declination)
-    mag = sample.mag if guard.follows_mag and present(sample.mag) else rest.mag
-    return with_sensors(sample, sample.gyr, rest.acc, mag)
 
 
 @compiled
@@ -449,40 +207,7 @@ def _astray(guard: Guard, astray: float, sample: Sample, attitude: Quat) -> floa
 
 
 @compiled
-def _at_rest(sample: Sample, gravity: float) -> bool:
-    """No turning, and the length of gravity: an acceleration could then tilt the specific force by 18° at most."""
-    least, most = (1.0 - _REST_FORCE) * gravity, (1.0 + _REST_FORCE) * gravity
-    return within(sample.gyr, _REST_RATE) and least * least < dot(sample.acc, sample.acc) < most * most
-
-
-@compiled
-def _across(rate: Vec3, v: Vec3) -> float:
-    """rad/s: how fast a rate turns a direction; a turn about it does not show in it."""
-    length = norm(v)
-    return norm(cross(rate, v)) / length if length > 0.0 else 0.0
-
-
-@compiled
 def _with(sigma: float, doubt: float) -> float:
     """rad; an angle of which nothing is known is not further off than half a turn; NaN stays."""
     whole = sqrt(sigma * sigma + doubt * doubt)
     return pi if whole > pi else whole
-
-
-@compiled
-def _gyr_limits(guard: Guard) -> Limits:
-    """A jump of 3 rad/s between two samples is beyond limbs and robots; no gyroscope ends below 125 deg/s."""
-    return Limits(3.0, 2.1, -1.0, guard.largest_gyr)
-
-
-@compiled
-def _acc_limits(guard: Guard) -> Limits:
-    """A jump of 4 g takes a blow; no accelerometer ends below 2 g."""
-    return Limits(4.0 * guard.gravity, 18.0, 1e-6, guard.largest_acc)
-
-
-@compiled
-def _mag_limits(guard: Guard, last: Vec3) -> Limits:
-    """Whatever its unit: a jump is as long as the field itself, and no range ends below twice that of the Earth."""
-    length = norm(last)
-    return Limits(length, 2.0 * length, 1e-18, guard.largest_mag)

@@ -52,13 +52,13 @@ def timed(pace: Pace, dt: float, repeated: bool, gap: float) -> Timed:
     """
     usual = pace.step
     if not SHORTEST < dt < _LONGEST:  # NaN too
-        back = -dt if dt < 0.0 else 0.0
+        back = min(-dt, _LONGEST) if dt < 0.0 else 0.0
         waiting = pace.waiting + 1
         if 0.0 < back <= gap:  # an older row, late: what it measured is past, and the clock goes on from its stamp
             return Timed(Pace(usual, pace.ahead + back, pace.back, pace.waiting, pace.held + 1), 0.0, TIME_DISORDER)
         if back > gap:  # the clock was set back: nothing can be set off against it any more
             flags = TIME_DISORDER | CLOCK_JUMP
-            return Timed(Pace(usual, 0.0, pace.back + pace.ahead + back + usual, 0, 0), usual, flags)
+            return Timed(Pace(usual, 0.0, min(pace.back + pace.ahead + back + usual, _LONGEST), 0, 0), usual, flags)
         if repeated or usual == 0.0:
             return Timed(Pace(usual, pace.ahead, pace.back, waiting, pace.held + 1), 0.0, TIME_DISORDER)
         return Timed(Pace(usual, pace.ahead + usual, pace.back, waiting, 0), usual, TIME_DISORDER)

@@ -1,0 +1,238 @@
+"""A look at a row: what its stamp and its samples are worth, what is absent, how far the body may have turned unmeasured."""
+
+from __future__ import annotations
+
+from math import pi, sqrt
+from typing import TYPE_CHECKING, NamedTuple
+
+from poise.data.flags import (
+    ACC_CLIPPED,
+    ACC_IGNORED,
+    ACC_MISSING,
+    GAP,
+    GYR_CLIPPED,
+    GYR_IGNORED,
+    GYR_MISSING,
+    MAG_CLIPPED,
+    MAG_IGNORED,
+    MAG_MISSING,
+    STUCK_ACC,
+    STUCK_GYR,
+    STUCK_MAG,
+    UNSETTLED,
+)
+from poise.data.packet import Sample
+from poise.estimators.guard.levelling import REST_RATE
+from poise.estimators.guard.samples import (
+    CLIPPED,
+    SPIKE,
+    STUCK,
+    Channel,
+    Limits,
+    change,
+    fresh,
+    judged,
+    jumped,
+    stirred,
+    usual,
+)
+from poise.estimators.guard.stamps import Pace, evenly, timed
+from poise.math.compiled import compiled
+from poise.math.vectors import ABSENT, ZERO, Vec3, cross, norm, present, within
+
+if TYPE_CHECKING:
+    from poise.estimators.guard.guard import Guard, State
+
+_SURE = 0.01  # rad of doubt: no longer worth a thought
+
+
+class Look(NamedTuple):
+    """What a row is found to be."""
+
+    gyr: Channel
+    acc: Channel
+    mag: Channel
+    pace: Pace
+    sample: Sample  # what the method may see of it, and how long it lasts
+    goes_on: bool  # the method steps; otherwise it waits, or is started
+    usable: bool  # gyroscope and accelerometer were measured
+    gathers: bool  # and nothing turned unmeasured: good for starting anew from
+    mag_seen: bool
+    gyr_absent: float  # s
+    acc_absent: float
+    mag_absent: float
+    lost: bool
+    doubt: float  # rad
+    flags: int
+
+
+_EMPTY = fresh(ZERO, Limits(0.0, 0.0, 0.0, 0.0))
+NOTHING = Look(
+    _EMPTY, _EMPTY, _EMPTY, Pace(0.0, 0.0, 0.0, 0, 0), Sample(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, 0.0, 0.0),
+    False, False, False, False, 0.0, 0.0, 0.0, False, 0.0, 0,
+)  # fmt: skip
+
+
+@compiled
+def common(guard: Guard, state: State, sample: Sample) -> bool:
+    """Whether nothing has to be looked at: an even step, and samples as they usually are."""
+    gyr, acc, mag = state.gyr, state.acc, state.mag
+    by_mag = change(mag, sample.mag)
+    if by_mag - by_mag == 0.0:
+        field = usual(mag, sample.mag, by_mag, mag_limits(guard, mag.value)) and state.aligned and state.mag_seen
+    else:  # a large enough number may overflow in the square: that is for a closer look
+        silent = state.mag_absent + sample.dt > max(guard.mag_loss, 3.0 * mag.every)
+        field = not present(sample.mag) and not (silent and state.mag_seen)
+    return (
+        state.plain
+        and not state.lost
+        and field
+        and evenly(state.pace, sample.dt, guard.gap)
+        and usual(gyr, sample.gyr, change(gyr, sample.gyr), gyr_limits(guard))
+        and usual(acc, sample.acc, change(acc, sample.acc), acc_limits(guard))
+    )
+
+
+@compiled
+def plain(guard: Guard, state: State, sample: Sample) -> Sample:
+    """A common row as the method may see it."""
+    dt, field = sample.dt, sample.mag if present(sample.mag) else ABSENT
+    return Sample(
+        dt, sample.gyr, sample.acc, field, sample.acc_age, sample.mag_age, dt, min(state.mag_absent + dt, guard.gap)
+    )  # fmt: skip
+
+
+@compiled
+def examined(guard: Guard, state: State, sample: Sample) -> Look:
+    """A row that is not a common one: its stamp and each of its samples is judged."""
+    gyr, acc, mag = state.gyr, state.acc, state.mag
+    by_gyr, by_acc, by_mag = change(gyr, sample.gyr), change(acc, sample.acc), change(mag, sample.mag)
+    row = timed(state.pace, sample.dt, by_gyr == 0.0 and not by_acc > 0.0 and not by_mag > 0.0, guard.gap)
+    dt, flags = row.dt, row.flags
+    if dt == 0.0:  # no time can be given to it: nothing moves, and too many of them lose the attitude
+        lost = state.lost or row.pace.held > guard.longest_disorder
+        nothing = Sample(0.0, gyr.value, ABSENT, ABSENT, 0.0, 0.0, 0.0, 0.0)
+        return Look(
+            gyr, acc, mag, row.pace, nothing, False, False, False, state.mag_seen,
+            state.gyr_absent, state.acc_absent, state.mag_absent, lost, state.doubt, flags,
+        )  # fmt: skip
+
+    # What the samples are worth
+    gyr_age, acc_age, mag_age = state.gyr_absent + dt, state.acc_absent + dt, state.mag_absent + dt
+    still = within(gyr.value, REST_RATE)
+    of_gyr, of_acc, of_mag = gyr_limits(guard), acc_limits(guard), mag_limits(guard, mag.value)
+    usual_step = row.pace.step
+    # A jump of the rate is an angular acceleration, which an accelerometer 1 cm off the axis feels
+    felt = max(0.1 * guard.gravity, 0.01 * sqrt(by_gyr) / dt)
+    spike = jumped(gyr, by_gyr, gyr_age, usual_step, of_gyr) and not stirred(acc, by_acc, felt)
+    found = judged(gyr, sample.gyr, gyr_age, spike, not still, still, guard.stuck_time, of_gyr)
+    gyr = found.channel
+    has_gyr = present(found.value)
+    spiked = present(sample.acc) and jumped(acc, by_acc, acc_age, usual_step, of_acc)
+    shaken = has_gyr and stirred(state.gyr, by_gyr, REST_RATE)
+    gyr_verdict = found.verdict
+    turning = _across(gyr.value, acc.value) > REST_RATE
+    found = judged(acc, sample.acc, acc_age, spiked and not shaken, turning, still, guard.stuck_time, of_acc)
+    acc, acc_verdict = found.channel, found.verdict
+    has_acc = present(found.value) and acc_verdict != CLIPPED
+    turning = _across(gyr.value, mag.value) > REST_RATE
+    spiked = state.mag_seen and jumped(mag, by_mag, mag_age, usual_step, of_mag)
+    if not state.mag_seen and mag.most == 0.0 and present(sample.mag):
+        mag, of_mag = fresh(sample.mag, mag_limits(guard, sample.mag)), mag_limits(guard, sample.mag)
+    found = judged(mag, sample.mag, mag_age, spiked, turning, still, guard.stuck_time, of_mag)
+    mag, mag_verdict = found.channel, found.verdict
+    has_mag = present(found.value) and mag_verdict != CLIPPED
+    flags |= _told(gyr_verdict, GYR_IGNORED, STUCK_GYR, GYR_CLIPPED)
+    flags |= _told(acc_verdict, ACC_IGNORED, STUCK_ACC, ACC_CLIPPED)
+    if guard.follows_mag:
+        flags |= _told(mag_verdict, MAG_IGNORED, STUCK_MAG, MAG_CLIPPED)
+
+    # What is absent, and since when
+    gyr_absent = 0.0 if has_gyr else gyr_age
+    acc_absent = 0.0 if has_acc else acc_age
+    mag_absent = 0.0 if has_mag else mag_age
+    mag_seen = state.mag_seen or has_mag
+    flags |= 0 if has_gyr else GYR_MISSING
+    flags |= ACC_MISSING if acc_absent > max(guard.acc_loss, 3.0 * acc.every) else 0
+    silent = mag_absent > max(guard.mag_loss, 3.0 * mag.every)
+    flags |= MAG_MISSING if mag_seen and guard.follows_mag and silent else 0
+    rate = gyr.value
+    clean = Sample(
+        dt, _over_loss(guard, state, rate, dt, usual_step) if has_gyr else rate,
+        sample.acc if has_acc else ABSENT, sample.mag if has_mag else ABSENT, sample.acc_age, sample.mag_age,
+        min(acc_age, guard.gap), min(mag_age, guard.gap),
+    )  # fmt: skip
+
+    # How far it may have turned unmeasured
+    doubt, lost = state.doubt, state.lost
+    hidden = 0.0  # rad
+    if not has_gyr or flags & GAP != 0:
+        stuck = state.gyr.same if gyr_verdict == STUCK and state.gyr_absent == 0.0 else 0.0
+        hidden = 0.5 * (norm(rate) + 0.5) * (dt + stuck)  # a rate goes on about half as wrong as it is large
+        lost = lost or gyr_absent > guard.longest_loss or dt > guard.longest_loss
+    elif gyr_verdict == CLIPPED:
+        hidden = 0.25 * gyr.most * dt
+    if hidden > 0.0:
+        doubt = min(doubt + hidden, pi)
+        lost = lost or doubt > guard.lost_doubt
+    elif doubt > 0.0 and has_acc:
+        doubt = doubt * guard.settle_time / (guard.settle_time + dt) if doubt > _SURE else 0.0
+    lost = lost or state.pace.held > guard.longest_disorder
+    if not state.started:  # nothing that could be lost
+        doubt, lost = 0.0, False
+    usable = has_acc and has_gyr
+    goes_on = state.started and not lost and (state.aligned or not has_mag or not guard.follows_mag)
+    flags |= UNSETTLED if goes_on and doubt > guard.valid_doubt else 0
+    return Look(
+        gyr, acc, mag, row.pace, clean, goes_on, usable, usable and hidden == 0.0, mag_seen,
+        gyr_absent, acc_absent, mag_absent, lost, doubt, flags,
+    )  # fmt: skip
+
+
+@compiled
+def _over_loss(guard: Guard, state: State, rate: Vec3, dt: float, usual_step: float) -> Vec3:
+    """The mean rate of a step in which rows were lost: between two samples the rate goes straight from one to the other.
+
+    Where rows were there and the gyroscope's samples were not, the last rate was taken for them: made good here.
+    """
+    before = state.gyr.value
+    if state.gyr_absent > 0.0:
+        return rate + (0.5 * state.gyr_absent / dt) * (rate - before) if state.gyr_absent <= 0.25 * guard.gap else rate
+    if usual_step > 0.0 and 1.5 * usual_step < dt <= guard.gap:
+        return rate + (0.5 * (dt - usual_step) / dt) * (before - rate)
+    return rate
+
+
+@compiled
+def _told(verdict: int, spike: int, stuck: int, clipped: int) -> int:
+    if verdict == SPIKE:
+        return spike
+    if verdict == STUCK:
+        return stuck
+    return clipped if verdict == CLIPPED else 0
+
+
+@compiled
+def _across(rate: Vec3, v: Vec3) -> float:
+    """rad/s: how fast a rate turns a direction; a turn about it does not show in it."""
+    length = norm(v)
+    return norm(cross(rate, v)) / length if length > 0.0 else 0.0
+
+
+@compiled
+def gyr_limits(guard: Guard) -> Limits:
+    """A jump of 3 rad/s between two samples is beyond limbs and robots; no gyroscope ends below 125 deg/s."""
+    return Limits(3.0, 2.1, -1.0, guard.largest_gyr)
+
+
+@compiled
+def acc_limits(guard: Guard) -> Limits:
+    """A jump of 4 g takes a blow; no accelerometer ends below 2 g."""
+    return Limits(4.0 * guard.gravity, 18.0, 1e-6, guard.largest_acc)
+
+
+@compiled
+def mag_limits(guard: Guard, last: Vec3) -> Limits:
+    """Whatever its unit: a jump is as long as the field itself, and no range ends below twice that of the Earth."""
+    length = norm(last)
+    return Limits(length, 2.0 * length, 1e-18, guard.largest_mag)
