@@ -63,6 +63,7 @@ from poise.math.vectors import UP, ZERO, Vec3, cross, dot, norm, present, unit, 
 
 _FIRST_SPREAD = 1e-4  # (share of the field)², before any has been measured
 _FIRST_WANDER = 0.04  # (m/s)²
+_ANOTHER = 100.0  # lengths: what was taken for the field, so much smaller than what came then, was none
 
 
 class State(NamedTuple):
@@ -341,6 +342,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
 
     # 7. Magnetometer
     field, length, spread, iron = known.field, known.length, known.spread, known.iron
+    anew = not state.begun
     if s.mags > 0.0:
         e = (1.0 / s.mags) * s.off
         if length < 0.0:  # a hard iron from before, in lengths of the field there
@@ -354,6 +356,10 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
             length = norm(e)
             field = Vec3(0.0, sqrt(e.x * e.x + e.y * e.y) / length, e.z / length)
             q = exp(atan2(e.x, e.y) * UP) * q
+        elif dot(e, e) > _ANOTHER**2:
+            length, anew = 0.0, True
+            forget(P, FIELD, 2, 0.25)
+            forget(P, TURN + 2, 1, method.initial_heading**2)
         else:
             share = s.mag_time / (method.spread_time + s.mag_time)
             spread += share * (min(dot(e, e) / 3.0, 9.0 * spread) - spread)
@@ -375,7 +381,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         wander,
     )
     put_sensor(P, after)
-    enter_block(P, s, not state.begun)
+    enter_block(P, s, anew)
     begin_block(P)
     q = normalize(exp(vector(P, X, TURN)) * q)
     bias = state.bias + vector(P, X, BIAS)
