@@ -371,3 +371,19 @@ def test_a_recording_of_anything_is_refused_or_estimated(rows: NDArray[np.float6
     attitude = poise.estimate(METHOD, recording)
     assert np.isfinite(attitude.quat[attitude.valid]).all()
     np.testing.assert_array_equal(rows, kept)
+
+
+@pytest.mark.parametrize("every", [1, 2, 10])
+@pytest.mark.parametrize("missing", [0.0, 0.05])
+def test_a_loss_ends_with_a_slow_accelerometer_and_a_lossy_gyroscope_too(every: int, missing: float) -> None:
+    recording = measure(forearm(60.0, 100.0, 1), seed=1)
+    gyr, acc = recording.gyr.copy(), recording.acc.copy()
+    gyr[2000:3000] = np.nan
+    gyr[np.random.default_rng(0).random(len(gyr)) < missing] = np.nan
+    acc[np.arange(len(acc)) % every > 0] = np.nan
+    faulty = replace(recording, gyr=gyr, acc=acc)
+    for method in (poise.SelfCalibrating(), poise.TwoStage()):
+        attitude = poise.estimate(method, faulty)
+        assert not attitude.valid[2200:3000].any()
+        assert attitude.valid[3400:].all()
+        assert np.degrees(poise.evaluate(attitude, faulty).total[-1000:].max()) < 8.0

@@ -163,7 +163,7 @@ def _waiting(guard: Guard, state: State, look: Look) -> State:
     levelling, ready = state.levelling, False
     if sample.dt > 0.0:
         bias = output(guard.method, state.inner, sample).bias
-        levelling = gathered(guard, levelling, sample, sample.gyr - bias, look.gathers)
+        levelling = gathered(guard, levelling, sample, sample.gyr - bias, look.turned)
         ready = look.usable and (not lost or enough(guard, levelling))
     if not ready:
         if not state.started:

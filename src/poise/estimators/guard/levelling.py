@@ -30,11 +30,13 @@ NOT_YET = Levelling(IDENTITY, ZERO, ZERO, 0.0, False)
 
 
 @compiled
-def gathered(guard: Guard, old: Levelling, sample: Sample, rate: Vec3, usable: bool) -> Levelling:
-    """The samples since the loss, with this one; a row that lacks one of the two begins anew."""
-    if not usable:
+def gathered(guard: Guard, old: Levelling, sample: Sample, rate: Vec3, turned: bool) -> Levelling:
+    """The samples since the loss, with this one. *turned*: how far it turned since the last row is known; otherwise anew."""
+    if not turned:
         return NOT_YET
     turn = renormalized(old.turn * exp(sample.dt * rate)) if old.time > 0.0 else IDENTITY
+    if not present(sample.acc):  # of a slower accelerometer, or lost
+        return Levelling(turn, old.force, old.field, old.time, old.moved)
     force = old.force + sample.acc_dt * rotate(turn, sample.acc)
     field = old.field + sample.mag_dt * rotate(turn, sample.mag) if present(sample.mag) else old.field
     return Levelling(turn, force, field, old.time + sample.acc_dt, old.moved or not at_rest(sample, guard.gravity))

@@ -45,6 +45,8 @@ if TYPE_CHECKING:
 
 _SURE = 0.01  # rad of doubt: no longer worth a thought
 
+_LEFT = 0.1  # of the doubt of a few rows that a straight line between their neighbours has made good
+
 
 class Look(NamedTuple):
     """What a row is found to be."""
@@ -56,7 +58,7 @@ class Look(NamedTuple):
     sample: Sample  # what the method may see of it, and how long it lasts
     goes_on: bool  # the method steps; otherwise it waits, or is started
     usable: bool  # gyroscope and accelerometer were measured
-    gathers: bool  # and nothing turned unmeasured: good for starting anew from
+    turned: bool  # how far it turned is known, but for a few rows at most: good for starting anew from
     mag_seen: bool
     gyr_absent: float  # s
     acc_absent: float
@@ -165,13 +167,17 @@ def examined(guard: Guard, state: State, sample: Sample) -> Look:
 
     # How far it may have turned unmeasured
     doubt, lost = state.doubt, state.lost
+    if has_gyr and 0.0 < state.gyr_absent <= 0.25 * guard.gap and flags & GAP == 0:  # made good: see _over_loss
+        doubt = max(doubt - (1.0 - _LEFT) * _unmeasured(state.gyr.value, state.gyr_absent), 0.0)
     hidden = 0.0  # rad
     if not has_gyr or flags & GAP != 0:
         stuck = state.gyr.same if gyr_verdict == STUCK and state.gyr_absent == 0.0 else 0.0
-        hidden = 0.5 * (norm(rate) + 0.5) * (dt + stuck)  # a rate goes on about half as wrong as it is large
+        hidden = _unmeasured(rate, dt + stuck)
         lost = lost or gyr_absent > guard.longest_loss or dt > guard.longest_loss
     elif gyr_verdict == CLIPPED:
         hidden = 0.25 * gyr.most * dt
+    short = flags & GAP == 0 and gyr_verdict != STUCK and 0.0 < gyr_absent <= 0.25 * guard.gap
+    turned = hidden == 0.0 or short
     if hidden > 0.0:
         doubt = min(doubt + hidden, pi)
         lost = lost or doubt > guard.lost_doubt
@@ -184,7 +190,7 @@ def examined(guard: Guard, state: State, sample: Sample) -> Look:
     goes_on = state.started and not lost and (state.aligned or not has_mag or not guard.follows_mag)
     flags |= UNSETTLED if goes_on and doubt > guard.valid_doubt else 0
     return Look(
-        gyr, acc, mag, row.pace, clean, goes_on, usable, usable and hidden == 0.0, mag_seen,
+        gyr, acc, mag, row.pace, clean, goes_on, usable, turned, mag_seen,
         gyr_absent, acc_absent, mag_absent, lost, doubt, flags,
     )  # fmt: skip
 
@@ -201,6 +207,12 @@ def _over_loss(guard: Guard, state: State, rate: Vec3, dt: float, usual_step: fl
     if usual_step > 0.0 and 1.5 * usual_step < dt <= guard.gap:
         return rate + (0.5 * (dt - usual_step) / dt) * (before - rate)
     return rate
+
+
+@compiled
+def _unmeasured(rate: Vec3, time: float) -> float:
+    """rad: how far the body may have turned otherwise; a rate goes on about half as wrong as it is large."""
+    return 0.5 * (norm(rate) + 0.5) * time
 
 
 @compiled
