@@ -211,6 +211,7 @@ class SelfCalibrating(NamedTuple):
         sums = Sums(
             s.time + T, s.samples + 1.0, s.rotation + T * R, force, force_late, force_time, s.gyr + sample.gyr,
             s.rate_square + dot(w, w), excess, mags, mag_time, off, to_iron, to_delay, clipped,
+            s.unmeasured + sample.turn_variance,
         )  # fmt: skip
         seconds = state.still + T if still else 0.0
         if sums.time < self.block - 0.5 * T:
@@ -306,7 +307,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     # 4. Covariance
     walk = method.bias_walk_rest if rest else method.bias_walk
     noise = Noise(
-        (method.gyr_noise**2 + method.scale_noise**2 * rate_square) * T,
+        (method.gyr_noise**2 + method.scale_noise**2 * rate_square) * T + s.unmeasured,
         walk**2 * T,
         (method.acc_noise**2 + method.motion_noise**2 * s.excess_square / s.samples) * T,
         method.field_walk**2 * T,

@@ -52,6 +52,7 @@ class Sums(NamedTuple):
     to_iron: Mat3  # Σ R₀
     to_delay: Vec3  # Σ R₀ (ω × u)
     clipped: Mat3  # Σ R dt, of the columns whose rate was at the end of the range
+    unmeasured: float  # rad²: Σ of the variance of what was turned unmeasured
 
 
 class Sensor(NamedTuple):
@@ -68,7 +69,7 @@ class Sensor(NamedTuple):
     wander: float  # s_v², (m/s)²: mean square of the pseudo-velocity in motion, per axis
 
 
-NOTHING = Sums(0.0, 0.0, _NONE, ZERO, ZERO, 0.0, ZERO, 0.0, 0.0, 0.0, 0.0, ZERO, _NONE, ZERO, _NONE)
+NOTHING = Sums(0.0, 0.0, _NONE, ZERO, ZERO, 0.0, ZERO, 0.0, 0.0, 0.0, 0.0, ZERO, _NONE, ZERO, _NONE, 0.0)
 
 
 class Noise(NamedTuple):
@@ -273,7 +274,7 @@ def sums_of(P: Floats) -> Sums:
     return Sums(
         float(P[a, 0]), float(P[a, 1]), three(P, a, 2), vector(P, a, 11), vector(P, a, 14), float(P[a, 17]),
         vector(P, a, 18), float(P[a, 21]), float(P[a, 22]), float(P[a, 23]), float(P[a, 24]), vector(P, b, 0),
-        three(P, b, 3), vector(P, b, 12), three(P, c, 0),
+        three(P, b, 3), vector(P, b, 12), three(P, c, 0), float(P[c, 9]),
     )  # fmt: skip
 
 
@@ -290,6 +291,7 @@ def put_sums(P: Floats, s: Sums) -> None:
     put_three(P, b, 3, s.to_iron)
     put(P, b, 12, s.to_delay)
     put_three(P, c, 0, s.clipped)
+    P[c, 9] = s.unmeasured
 
 
 @compiled
