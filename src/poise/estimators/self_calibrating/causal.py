@@ -21,10 +21,13 @@ from poise.estimators.self_calibrating.learned import check_start, doubts, iron_
 from poise.estimators.self_calibrating.learned import learned as known_by_now
 from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
+    ANOTHER_BIAS,
+    BEGUN_ANEW,
     BIAS,
     COLUMNS,
     ENTRY,
     FIELD,
+    GOES_ON,
     IRON,
     MAG_DELAY,
     NOTHING,
@@ -56,6 +59,7 @@ from poise.estimators.self_calibrating.model import (
     three,
     vector,
 )
+from poise.estimators.self_calibrating.watch import contradicted, doubt_bias, forget_watch, turned_away, turns_alone
 from poise.math.compiled import compiled
 from poise.math.matrices import Mat3, matrix, transpose
 from poise.math.quaternions import Quat, attitude_of, conjugate, exp, normalize, renormalized, rotate, shortest_turn
@@ -122,6 +126,15 @@ class SelfCalibrating(NamedTuple):
     rest_acc: Annotated[float, "m/s²", "largest distance of a still specific force from its mean, per axis"] = 0.5
     rest_noise: Annotated[float, "rad/s", "how far a block's mean rate at rest is from the bias", (1e-9, 10.0)] = 3e-4
     rest_speed: Annotated[float, "m/s", "pseudo-velocity of a block at rest", (1e-9, 1e3)] = 0.01
+    watch_time: Annotated[
+        float, "s", "over which the mean specific force must stand upright; longer than motions", (0.1, 1e6)
+    ] = 5.0
+    watch_tilt: Annotated[
+        float, "rad", "a mean further off, beside what motion explains, means that the bias has changed", (1e-3, 10.0)
+    ] = radians(1.5)
+    watch_heading: Annotated[
+        float, "rad", "a field turned further, with its dip and length, means the same", (1e-3, 10.0)
+    ] = radians(12.0)
     sure_tilt: Annotated[
         float, "rad", "the magnetometer corrects the tilt too while that is less sure", (0.0, 10.0)
     ] = radians(2.0)
@@ -161,8 +174,9 @@ class SelfCalibrating(NamedTuple):
         unsure_attitude(self, P)
         if state.begun:
             forget(P, TURN, 2, (4.0 * self.initial_tilt) ** 2)  # it may well be in motion
-            enter_block(P, NOTHING, True)
+            enter_block(P, NOTHING, BEGUN_ANEW)
         begin_block(P)
+        forget_watch(P)
         put(P, SENSOR, 9, ZERO)
         attitude = attitude_of(sample.acc, sample.mag, 0.0)
         return State(attitude, state.bias, ZERO, sample.gyr, sample.acc, 0.0, state.begun, P)
@@ -344,6 +358,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     # 7. Magnetometer
     field, length, spread, iron = known.field, known.length, known.spread, known.iron
     anew = not state.begun
+    e = ZERO
     if s.mags > 0.0:
         e = (1.0 / s.mags) * s.off
         if length < 0.0:  # a hard iron from before, in lengths of the field there
@@ -368,6 +383,10 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
             all_axes = P[0, 0] + P[1, 1] > 2.0 * method.sure_tilt**2
             correct_field(P, e, field, (1.0 / s.mags) * s.to_iron, (1.0 / s.mags) * s.to_delay, all_axes, variance)
     symmetrise(P)
+    seen = e + field if s.mags > 0.0 and length > 0.0 else ZERO
+    at_hand: Vec3 = transpose(matrix(q)) @ seen
+    bias_changed = contradicted(method, P, s) or turns_alone(P, at_hand, still, T, rest)
+    bias_changed = bias_changed or (state.begun and s.mags > 0.0 and turned_away(method, P, s, seen, field))
 
     # 8. Inject
     after = Sensor(
@@ -382,7 +401,9 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         wander,
     )
     put_sensor(P, after)
-    enter_block(P, s, anew)
+    if bias_changed:  # 9. What was thought to be known of it is not
+        doubt_bias(method, P)
+    enter_block(P, s, ANOTHER_BIAS if bias_changed else (BEGUN_ANEW if anew else GOES_ON))
     begin_block(P)
     q = normalize(exp(vector(P, X, TURN)) * q)
     bias = state.bias + vector(P, X, BIAS)

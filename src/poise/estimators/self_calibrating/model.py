@@ -30,6 +30,7 @@ SUMS, SENSOR, ROWS, COLUMNS = 31, 34, 35, 28
 ENTRIES, ENTRY = ROWS, 28
 INJECTED, ADDED, CORRECTIONS, MOST = 6, 7, 10, 9
 ONE = SIZE  # the column of single numbers
+GOES_ON, BEGUN_ANEW, ANOTHER_BIAS = 0.0, 1.0, 2.0  # what became of the attitude, and of the bias, after a block
 
 _NONE = Mat3(ZERO, ZERO, ZERO)
 
@@ -159,7 +160,7 @@ def enter_correction(P: Floats, residual: float, per_S: float) -> None:
 
 
 @compiled
-def enter_block(P: Floats, s: Sums, restarted: bool) -> None:
+def enter_block(P: Floats, s: Sums, event: float) -> None:
     """A block's entry is complete: P after the corrections, what was injected, what was added up."""
     if P.shape[0] <= ROWS:
         return
@@ -175,7 +176,7 @@ def enter_block(P: Floats, s: Sums, restarted: bool) -> None:
     put_three(P, at + ADDED, 9, s.rotation)
     put(P, at + ADDED + 1, 9, s.force)
     put(P, at + ADDED + 2, 9, s.force_late)
-    P[at + 1, ONE] = 1.0 if restarted else 0.0
+    P[at + 1, ONE] = event
     P[SENSOR, 22] += 1.0
     P[entry_row(P), ONE] = 0.0
 
