@@ -232,6 +232,22 @@ def test_bad_files_are_told_and_the_good_ones_done(folder: Path, capsys: pytest.
     assert [path.name for path in (folder / "out").iterdir()] == ["made.attitude.parquet"]
 
 
+@pytest.mark.parametrize("limit", ["whole=1GiB", "whole=0"])  # in memory, and in chunks
+def test_a_file_without_one_usable_sample_is_told(limit: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    made = poise.read("made.csv")
+    poise.write(made.with_samples(acc=np.full_like(made.acc, np.nan)), folder / "dead.csv")
+    arguments = ["estimate", "dead.csv", "made.csv", "-m", "two-stage", "--limit", limit, "--json"]
+    assert run(arguments) == 1
+    out, err = capsys.readouterr()
+    (line,) = err.strip().splitlines()
+    assert "dead.csv: no row is valid: no attitude yet" in line and "dead.attitude.parquet was written" in line
+    found = json.loads(out)
+    assert [result["file"] for result in found["results"]] == ["dead.csv", "made.csv"]
+    assert [error["file"] for error in found["errors"]] == ["dead.csv"]
+    attitude = read_attitude(folder / "dead.attitude.parquet")  # nothing is lost: the flags say why, row by row
+    assert len(attitude) == len(made) and not attitude.valid.any() and attitude.reasons()
+
+
 def test_messages_count_and_name_once(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     poise.write(poise.Recording([0.0], [[0.1, 0, 0]], [[0, 0, 9.8]]), "one.csv")
     assert run(["sniff", "one.csv"]) == 0

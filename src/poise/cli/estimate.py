@@ -130,13 +130,30 @@ def estimate(
     except UsageError as error:
         show.problem(error)
         return 2
+    useless = _useless(results)
+    refused += useless
     if json:
         show.as_json({"method": running.method, "results": results, "errors": refused})
     elif results:
         _report(results, running.method)
         if learned:
             _report_learned(results, running.method)
+    for each in useless:
+        show.problem(f"{each['file']}: {each['error']}")
     return 1 if refused else 0
+
+
+def _useless(results: list[dict[str, Any]]) -> list[dict[str, str]]:
+    """The files of which no row came out valid: what was written says so row by row, but it is no attitude."""
+    return [
+        {
+            "file": result["file"],
+            "error": f"no row is valid: {result['invalid_because'] or 'there is none'}; "
+            f"{result['output']} was written all the same, poise doctor shows what is wrong with the samples",
+        }
+        for result in results
+        if not result["valid"] > 0
+    ]
 
 
 def _finished(
@@ -149,6 +166,9 @@ def _finished(
     tell: Callable[[str, float], None],
 ) -> dict[str, Any]:
     """Write the attitude and its picture; the line of the summary."""
+    import numpy as np
+
+    from poise.data.flags import why_invalid
     from poise.estimators import judged_by
     from poise.evaluation import evaluate
     from poise.formats import write
@@ -171,6 +191,7 @@ def _finished(
         "seconds": recording.duration,
         "rate_hz": recording.rate_hz,
         "valid": float(attitude.valid.mean()) if len(attitude) else float("nan"),
+        "invalid_because": why_invalid(int(np.bitwise_or.reduce(attitude.flags))),
         "heading": attitude.heading_reference,
         "frame": attitude.frame,
         "error_deg": errors.rmse_deg()._asdict() if errors else None,
@@ -235,7 +256,7 @@ def _report(results: list[dict[str, Any]], method: str) -> None:
         rows.append(row)
     show.table(f"{method}: attitudes", columns + [f"{judged} error °"] * with_truth, rows)
     for result in results:
-        if not result["valid"] >= _WORTH_SAYING:
+        if 0 < result["valid"] < _WORTH_SAYING:
             show.note(
                 f"{Path(result['file']).name}: only {result['valid']:.1%} of the rows are valid; "
                 "the flags say why: poise.read_attitude(output).reasons()"
