@@ -178,8 +178,8 @@ def directions(vector: Floats) -> Floats:
 
 def windows(count: int, width: float) -> NDArray[np.intp]:
     """(count,) the window that each block belongs to; shorter ones where the recording is short."""
-    length = min(WINDOW, max(count * width / LEAST_WINDOWS, 3 * width))
-    return np.asarray((np.arange(count) + 0.5) * width / length, dtype=np.intp)
+    length = max(min(WINDOW / width, max(count / LEAST_WINDOWS, 3.0)), 1e-3)  # blocks
+    return np.asarray((np.arange(count) + 0.5) / length, dtype=np.intp)
 
 
 def turns(vector: Floats, along: Path, width: float, length: float) -> Turns:
