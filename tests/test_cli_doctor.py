@@ -109,7 +109,8 @@ def test_sheets(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
         (["estimate", "right.csv", "--delay", "mag=late"], 2, "--delay"),
         (["estimate", "right.csv", "--profile", "absent.toml"], 2, "cannot be read"),
         (["estimate", "right.csv", "--profile", "no.csv"], 2, "no TOML"),
-        (["estimate", "right.csv", "--profile", "odd.toml"], 2, "not understood"),
+        (["estimate", "right.csv", "--profile", "odd.toml"], 2, r"no table \[unit\]"),
+        (["estimate", "right.csv", "--units", "gyr=furlong"], 2, "--units: unit 'furlong' of gyr not understood"),
     ],
 )
 def test_mistakes(folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], code: int, says: str) -> None:
@@ -118,6 +119,33 @@ def test_mistakes(folder: Path, capsys: pytest.CaptureFixture[str], arguments: l
     assert run(arguments) == code
     lines = capsys.readouterr().err.strip().splitlines()
     assert len(lines) == 1 and re.search(says, lines[0]), lines
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("[units]\ngyr = 'furlong'", r"\[units\] gyr: unit 'furlong' of gyr not understood; expected one of rad/s"),
+        ("[units]\ngyr = 'deg/s,acc=g'", r"\[units\] gyr: unit 'deg/s,acc=g'"),
+        ("[units]\ngyr = 3", r"\[units\] gyr: expected a text, found 3"),
+        ("[units]\nbaro = 'Pa'", r"\[units\] baro: \[units\] is of time, gyr, acc, mag"),
+        ("[unit]\ngyr = 'deg/s'", r"no table \[unit\] is known"),
+        ("units = 'deg/s'", "units is no table"),
+        ("[remap]\nacc = 'x x z'", r"\[remap\] acc: axes 'x x z' are not a rotation"),
+        ("[remap]\nacc = ''", r"\[remap\] acc: axes ''"),
+        ("[remap]\nall = 'x y -z'", r"\[remap\] all: axes 'x y -z' make a left-handed frame"),
+        ("[delay]\nmag = 5.0", r"\[delay\] mag = 5.0: expected seconds, at most 1"),
+        ("[delay]\nmag = nan", r"\[delay\] mag = nan: expected seconds"),
+        ("[delay]\nmag = true", r"\[delay\] mag: expected seconds, a number"),
+        ("[delay]\ngyr = 0.1", r"\[delay\] gyr: \[delay\] is of acc, mag"),
+    ],
+)
+def test_a_mistake_in_a_profile_is_named_with_file_and_key(
+    folder: Path, capsys: pytest.CaptureFixture[str], text: str, says: str
+) -> None:
+    (folder / "glove.toml").write_text(text)
+    assert run(["estimate", "right.csv", "--profile", "glove.toml"]) == 2
+    (line,) = capsys.readouterr().err.strip().splitlines()
+    assert re.match(f"poise: --profile glove.toml: {says}", line), line
 
 
 def test_a_file_in_chunks_is_refused_and_repaired_alike(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

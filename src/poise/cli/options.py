@@ -125,9 +125,10 @@ class Reading:
         from poise.formats.units import FACTORS
 
         corrected.asked(self)
-        for sensor in pairs(self.units, "--units", "gyr=deg/s,acc=g") or {}:
+        for sensor, unit in (pairs(self.units, "--units", "gyr=deg/s,acc=g") or {}).items():
             if sensor not in FACTORS:
                 usage(f"--units {sensor}=…: expected one of {', '.join(FACTORS)}")
+            corrected.check_unit("--units", sensor, unit)
         if self.rate is not None and not 0.0 < self.rate < math.inf:
             usage(f"--rate {self.rate}: expected samples per second above 0")
         if self.delimiter is not None and self.delimiter not in ("tab", "space") and len(self.delimiter) != 1:
