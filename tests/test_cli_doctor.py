@@ -83,6 +83,19 @@ def test_options_add_up(folder: Path, capsys: pytest.CaptureFixture[str], right:
     assert "acc=x y -z" in result["command"] and "all=y z x" in result["command"]
 
 
+def test_a_value_may_begin_with_a_hyphen(
+    folder: Path, capsys: pytest.CaptureFixture[str], right: poise.Recording
+) -> None:
+    """As an argument of its own: the one after the option is its value, whatever it begins with."""
+    assert run(["doctor", "right.csv", "--remap", "-x -y z"]) == 0
+    assert run(["doctor", "right.csv", "--remap=-x -y z"]) == 0
+    np.savetxt(folder / "bare.csv", np.column_stack([right.time, right.time, right.gyr, right.acc]), delimiter=",")
+    assert run(["doctor", "bare.csv", "--columns", "-,time,gx,gy,gz,ax,ay,az", "--units", "gyr=rad/s,acc=m/s2"]) == 0
+    where = ["--place", "-33.9,151.2", "--date", "2026-01-01"]
+    assert run(["estimate", "right.csv", "-m", "two-stage", *where, "-o", "south.csv"]) == 0
+    assert "poise:" not in capsys.readouterr().err
+
+
 def test_sheets(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("matplotlib")
     assert run(["doctor", "glove.csv", "right.csv", "--sheet", "both.html"]) == 1
@@ -104,7 +117,8 @@ def test_sheets(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
         (["doctor", "right.csv", "--hemisphere", "east"], 2, "hemisphere"),
         (["estimate", "right.csv", "--remap", "acc=x x z"], 2, "--remap"),
         (["estimate", "right.csv", "--remap", "baro=x y z"], 2, "--remap"),
-        (["estimate", "right.csv", "--remap", "-x y z"], 2, "."),
+        (["estimate", "right.csv", "--remap", "-x y z"], 2, "--remap: axes '-x y z' make a left-handed frame"),
+        (["estimate", "right.csv", "--remap", "--json"], 2, "--remap: axes '--json' not understood"),
         (["estimate", "right.csv", "--delay", "gyr=0.1"], 2, "--delay"),
         (["estimate", "right.csv", "--delay", "mag=late"], 2, "--delay"),
         (["estimate", "right.csv", "--profile", "absent.toml"], 2, "cannot be read"),
