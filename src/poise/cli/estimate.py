@@ -11,7 +11,8 @@ from cyclopts import Parameter
 
 from poise.cli import show
 from poise.cli.options import Reading, Running, UsageError, usage
-from poise.cli.targets import PICTURES, make_room, targets
+from poise.cli.targets import PICTURES, targets
+from poise.errors import FormatError
 
 if TYPE_CHECKING:
     from poise.data.attitude import Attitude
@@ -65,7 +66,7 @@ def estimate(
         Recordings: CSV, TSV, Parquet, npz or MATLAB files or ROS bags, recognised by their content.
     output
         A file (.parquet, .csv, .tum for a trajectory in TUM text, .bag or .mcap for sensor_msgs/Imu messages) for one
-        FILE, or a folder for any number.
+        FILE, or a folder that is there for any number.
     format
         What to write where the output is a folder; `ros2` makes `NAME.attitude` there, the folder of a ROS 2 bag.
     plot
@@ -107,8 +108,6 @@ def estimate(
             tell("reading", 0.0)
             kind = format or outputs[file].suffix.lower().lstrip(".").replace("txt", "tum")
             if file not in tables and long.suits(file, reading, running, kind):
-                for place in filter(None, (outputs[file], pictures.get(file))):
-                    make_room(place)
                 result = long.estimate(file, outputs[file], kind, frame, pictures.get(file), reading, running, tell)
                 result["doubts"] = running.doubts(result["learned"])
                 return result | {"learned_over_time": None} | _keep(result["learned"], kept.get(file))
@@ -130,6 +129,9 @@ def estimate(
     except UsageError as error:
         show.problem(error)
         return 2
+    except FormatError as error:
+        show.problem(error)
+        return 1
     useless = _useless(results)
     refused += useless
     if json:
@@ -174,8 +176,6 @@ def _finished(
     from poise.formats import write
 
     tell("writing", 0.8)
-    for place in filter(None, (target, picture)):
-        make_room(place)
     write(attitude, target, format, recording=recording)
     errors = evaluate(attitude, recording) if recording.truth is not None else None
     if picture:
@@ -206,7 +206,6 @@ def _keep(learned: Any, kept: Path | None) -> dict[str, Any]:
     from poise.formats import write
 
     if kept and learned is not None:
-        make_room(kept)
         write(learned, kept)
     return {"learned_saved": kept and str(kept)}
 
@@ -216,7 +215,6 @@ def _draw_or_write(attitude: Attitude, recording: Recording, over_time: Path | N
     from poise.formats import write
 
     if over_time and attitude.learning is not None:
-        make_room(over_time)
         if over_time.suffix.lower() in PICTURES:
             from poise.plots import learning_figure, save_figure
 
