@@ -61,6 +61,20 @@ def test_a_right_recording_is_fine(folder: Path, capsys: pytest.CaptureFixture[s
     assert all(f["severity"] != "sure" for f in result["findings"])
 
 
+def test_no_profile_where_nothing_is_to_be_repaired(
+    folder: Path, capsys: pytest.CaptureFixture[str], right: poise.Recording
+) -> None:
+    assert run(["doctor", "right.csv", "--save-profile", "right.toml"]) == 0
+    assert "right.csv: nothing to repair: no profile written" in capsys.readouterr().err
+    poise.write(right.with_samples(acc=0.01 * right.acc + 0.1), folder / "free.csv")
+    assert run(["doctor", "free.csv", "--save-profile", "free.toml"]) == 1
+    assert "free.csv: nothing of it is repaired for sure: no profile written" in capsys.readouterr().err
+    assert (
+        run(["doctor", "right.csv", "--delay", "mag=0.01", "--save-profile", "told.toml"]) == 0
+    )  # what was told is kept
+    assert [path.name for path in folder.glob("*.toml")] == ["told.toml"]
+
+
 def test_what_is_surely_wrong_is_refused_with_its_fix(
     folder: Path, capsys: pytest.CaptureFixture[str], right: poise.Recording
 ) -> None:

@@ -214,6 +214,11 @@ def _check_entry(where: str, table: str, name: str, value: Any) -> None:
         _check_axes(where, name, value)
 
 
+def corrects(reading: Reading) -> bool:
+    """Whether there is anything in *reading* for a profile to keep."""
+    return bool(reading.units or reading.remap or reading.delay)
+
+
 def save_profile(reading: Reading, path: Path, comment: str) -> None:
     """Write units, axes and delays of *reading* as a profile: the whole file or nothing."""
     from poise.formats.saving import replacing

@@ -59,7 +59,7 @@ def doctor(
     hemisphere
         Where they were made: the field points down in the north, up in the south, which tells the sign of acc and mag.
     save_profile
-        Write what surely repairs the one FILE, as a file for --profile.
+        Write what surely repairs the one FILE, as a file for --profile; nothing is written where nothing is to be repaired.
     sheet
         The plots behind the verdicts: one .html for all FILEs, or a picture (.png, .svg, .pdf) of one.
     json
@@ -183,7 +183,10 @@ def _check_targets(files: list[Path], save_profile: Path | None, sheet: Path | N
 def _write(done: list[Examined], save_profile: Path | None, sheet: Path | None) -> list[str]:
     """Write the profile and the sheet; what to say of them."""
     written = []
-    if save_profile is not None and done:
+    if save_profile is not None and done and not corrected.corrects(done[0].reading):
+        what = "nothing of it is repaired for sure" if done[0].diagnosis.found("sure") else "nothing to repair"
+        written.append(f"{done[0].file}: {what}: no profile written")
+    elif save_profile is not None and done:
         one = done[0]
         corrected.save_profile(one.reading, save_profile, f"what repairs {one.file.name}, by poise doctor")
         written.append(
