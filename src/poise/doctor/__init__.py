@@ -150,8 +150,17 @@ def _wrong(
             f'{name} as "{axes.words(turning.signed_axes()[i].T)}"'
             for name, i in (("acc", answer.acc), ("mag", answer.mag))
         )
-        text = f"the axes of acc, mag and gyr all differ from each other {clear}: {told} would fit, each up to its sign"
-        return Finding("axes", "sure", text, decided=False)
+        text = f"the axes of acc, mag and gyr all differ from each other {clear}"
+        fixes = axes.both_fixes(verdict, blocks.acc, blocks.mag, hemisphere)
+        if fixes is None:
+            return Finding("axes", "sure", f"{text}: {told} would fit, each up to its sign", decided=False)
+        named = {sensor: axes.words(matrix) for sensor, matrix in fixes.axes.items()}
+        fitting = " and ".join(f'{sensor} as "{words}"' for sensor, words in named.items())
+        text += (
+            f": {fitting} fit; the signs by the dip of {_dip(fixes.cosine):+.0f}°, {hemisphere}ern hemisphere assumed, "
+        )
+        text += "but acc and mag may both have the other sign: lay the sensor level, face up: acc z is then +g"
+        return Finding("axes", "sure", text, Corrections(axes=named), decided=False)
     fix = axes.fix(answer, blocks.acc, blocks.mag, hemisphere)
     correction = Corrections(axes={answer.sensor: axes.words(fix.matrix)})
     name = f"{answer.sensor} axes"

@@ -36,10 +36,10 @@ def signed_axes() -> Floats:
             matrix = np.zeros((3, 3))
             matrix[range(3), order] = signs
             found.append(matrix)
-    return np.array(sorted(found, key=lambda m: (np.linalg.det(m) < 0, _changed(m))))
+    return np.array(sorted(found, key=lambda m: (np.linalg.det(m) < 0, changed(m))))
 
 
-def _changed(matrix: Floats) -> int:
+def changed(matrix: Floats) -> int:
     """How many axes *matrix* changes."""
     return int(np.sum(np.diag(matrix) != 1.0))
 
