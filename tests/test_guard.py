@@ -136,7 +136,9 @@ def test_rows_lost_for_long_are_a_gap(lost: int) -> None:
 
 def test_at_rest_without_magnetometer_an_hour_is_a_gap() -> None:
     """Who knows what it was turned by meanwhile."""
-    recording = changed(time=clean().time + 3600.0 * (np.arange(len(clean())) >= 300), mag=np.full((len(clean()), 3), np.nan))
+    recording = changed(
+        time=clean().time + 3600.0 * (np.arange(len(clean())) >= 300), mag=np.full((len(clean()), 3), np.nan)
+    )
     assert list(flagged(poise.estimate(METHOD, recording), Flag.GAP)) == [300]
 
 

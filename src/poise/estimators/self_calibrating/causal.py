@@ -14,7 +14,7 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from poise.data.flags import GYR_CLIPPED, MAG_DISTURBED, REST
+from poise.data.flags import GYR_CLIPPED, MAG_DISTURBED, REST, UNSETTLED
 from poise.data.learned import Learned
 from poise.data.packet import Output, Sample
 from poise.estimators.self_calibrating.learned import check_start, doubts, iron_from_before, take_over
@@ -59,7 +59,14 @@ from poise.estimators.self_calibrating.model import (
     three,
     vector,
 )
-from poise.estimators.self_calibrating.watch import contradicted, doubt_bias, forget_watch, turned_away, turns_alone
+from poise.estimators.self_calibrating.watch import (
+    contradicted,
+    doubt_bias,
+    forget_watch,
+    settled,
+    turned_away,
+    turns_alone,
+)
 from poise.math.compiled import compiled
 from poise.math.matrices import Mat3, matrix, transpose
 from poise.math.quaternions import Quat, attitude_of, conjugate, exp, normalize, renormalized, rotate, shortest_turn
@@ -252,6 +259,8 @@ class SelfCalibrating(NamedTuple):
         flags = REST if state.still >= self.rest_time else 0
         if float(P[SENSOR, 21]) > 0.05**2:
             flags |= MAG_DISTURBED
+        if not settled(P):
+            flags |= UNSETTLED
         if not within(sample.gyr, 0.98 * self.gyr_range):
             flags |= GYR_CLIPPED
         if self.log > 0:  # which entry of the log the row stands behind

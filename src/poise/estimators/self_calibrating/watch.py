@@ -18,8 +18,10 @@ if TYPE_CHECKING:
 
 _MEAN = 10  # where the row of sums keeps the mean of the horizontal specific force (2) and of the square of all of it
 _SEEN, _TURNED = 13, 16  # and of a rest the field that it began with (3), and the turn since then (3), body frame
-_FIELD = 19  # and the mean of the field as it was seen (3), Earth frame, and of its square
+_FIELD = 19  # and the mean of the field as it was seen (3), Earth frame, of its square, and of its misfit
+_UNSETTLED = 24  # and the seconds that the attitude is unsettled for, after the bias was doubted
 _SAME, _STEADY = 0.1, 0.12  # lengths that its north and up may be off, and that it may stray from its mean
+_UNDISTURBED = 0.07  # lengths that dip and length may be off, for four times as long
 _WOULD_SHOW, _SHOWS = 0.05, 0.3  # lengths: the field would have moved by as much, and moved by that share of it
 _OF_MOTION = 0.12  # of the motion's root mean square may be left in the mean
 
@@ -27,6 +29,7 @@ _OF_MOTION = 0.12  # of the motion's root mean square may be left in the mean
 @compiled
 def contradicted(method: SelfCalibrating, P: Floats, s: Sums) -> bool:
     """Takes the block into the means, and says whether the tilt cannot be right (eq. 15)."""
+    P[SUMS + 2, _UNSETTLED] = max(float(P[SUMS + 2, _UNSETTLED]) - s.time, 0.0)
     if s.force_time == 0.0:
         return False
     share, per_time = s.time / (method.watch_time + s.time), 1.0 / (s.force_time * method.gravity)
@@ -55,6 +58,12 @@ def turned_away(method: SelfCalibrating, P: Floats, s: Sums, seen: Vec3, field: 
     square = float(P[row, _FIELD + 3])
     square += share * (dot(seen, seen) - square)
     P[row, _FIELD + 3] = square
+    up, longer = seen.z - field.z, sqrt(dot(seen, seen)) - 1.0
+    misfit = float(P[row, _FIELD + 4])
+    misfit += 0.25 * share * (up * up + longer * longer - misfit)
+    P[row, _FIELD + 4] = misfit
+    if misfit > _UNDISTURBED**2:
+        return False
     north = sqrt(mean.x * mean.x + mean.y * mean.y)
     if abs(north - field.y) > _SAME or abs(mean.z - field.z) > _SAME or square - dot(mean, mean) > _STEADY**2:
         return False
@@ -97,6 +106,13 @@ def doubt_bias(method: SelfCalibrating, P: Floats) -> None:
     forget(P, TURN + 2, 1, min(heading, method.initial_heading**2))
     forget(P, VELOCITY, 3, 1.0)
     forget_watch(P)
+    P[row, _UNSETTLED] = method.watch_time
+
+
+@compiled
+def settled(P: Floats) -> bool:
+    """Whether the bias has not been doubted for a while."""
+    return float(P[SUMS + 2, _UNSETTLED]) <= 0.0
 
 
 @compiled
@@ -105,4 +121,4 @@ def forget_watch(P: Floats) -> None:
     put(P, SUMS + 2, _MEAN, ZERO)
     put(P, SUMS + 2, _SEEN, ZERO)
     put(P, SUMS + 2, _FIELD, ZERO)
-    P[SUMS + 2, _FIELD + 3] = 0.0
+    P[SUMS + 2, _FIELD + 3], P[SUMS + 2, _FIELD + 4] = 0.0, 0.0
