@@ -16,6 +16,7 @@ from poise.cli.evaluate import evaluate
 from poise.cli.methods import methods
 from poise.cli.plot import plot
 from poise.cli.sniff import sniff
+from poise.cli.tipover import tipover
 
 app = App(
     name="poise",
@@ -35,6 +36,7 @@ app.command(compare)
 app.command(conform)
 app.command(plot)
 app.command(doctor)
+app.command(tipover)
 app.command(sniff)
 app.command(methods)
 app.command(demo)

@@ -13,7 +13,7 @@ from poise.estimators.parameters import parameters
 from poise.math.quaternions import IDENTITY
 from poise.math.vectors import Vec3, unit
 from poise.monitor.parameters import checked, level_at, mounted
-from poise.monitor.sides import Directions
+from poise.monitor.sides import NO_EDGES, Directions
 from poise.monitor.support import Support
 from poise.monitor.tip_over import TipOver
 
@@ -66,6 +66,8 @@ def from_table(table: Mapping[str, Any], base: TipOver | None = None) -> TipOver
             )
     if "mount" in table:
         given["mount"] = mounted(table["mount"])
+    if given.keys() & {"range", "self_balancing"}:
+        given["edges"] = NO_EDGES  # angles given after a support take its place
     tipover = tipover._replace(**given)
     if "tare" in table:
         tipover = _level(tipover, table["tare"])

@@ -177,6 +177,10 @@ class TipOver(NamedTuple):
             state.now, seen.tilt, seen.worst.angle, seen.worst.rate, seen.limit, seen.impact, seen.direction
         )  # fmt: skip
 
+    def sides(self) -> tuple[Side, ...]:
+        """What the lean is judged across: the edges where there are any, else the four directions."""
+        return _sides(self)
+
 
 @compiled
 def _sides(monitor: TipOver) -> tuple[Side, ...]:
