@@ -91,7 +91,8 @@ def dry_run(
         else:
             near = np.abs(judgement.time - event.time) <= _LATE
             alarms.append(Alarm(event, at, False if known[near].all() else None))
-    return DryRun(alarms, falls, [fall for i, fall in enumerate(falls) if i not in told], hours)
+    missed = [fall for i, fall in enumerate(falls) if i not in told and not _said(judgement, fall)]
+    return DryRun(alarms, falls, missed, hours)
 
 
 def _fall_of(time: float, falls: list[Fall]) -> int | None:
@@ -102,6 +103,12 @@ def _fall_of(time: float, falls: list[Fall]) -> int | None:
         if _begin(fall) - _EARLY <= time <= fall.end + _LATE
     ]
     return min(near)[2] if near else None
+
+
+def _said(judgement: Judgement, fall: Fall) -> bool:
+    """Whether the monitor held the body for fallen then anyway, from an earlier alarm."""
+    during = (judgement.time >= _begin(fall)) & (judgement.time <= fall.end)
+    return bool(np.isin(judgement.state[during], [int(state) for state in _DOWN]).any())
 
 
 def _begin(fall: Fall) -> float:
@@ -117,10 +124,13 @@ def _falls(
         table[:, RATE] = recording.gyr
         truth = replace(truth, table=table)
     seen = judge(truth, recording, judgement.tipover._replace(look_ahead=0.0))
-    falls = []
+    falls, down = [], False
     for i, event in enumerate(seen.events):
-        if event.state in _DOWN and event.before not in _DOWN:
-            after = (e.time for e in seen.events[i:] if e.state not in _DOWN)
+        if event.state is TipState.UNKNOWN:  # a reference that is lost for a while ends no fall
+            continue
+        was, down = down, event.state in _DOWN
+        if down and not was:
+            after = (e.time for e in seen.events[i:] if e.state not in (*_DOWN, TipState.UNKNOWN))
             falls.append(Fall(event.time, _ground(seen, event.time), next(after, float(np.nanmax(seen.time)))))
     known = seen.state != TipState.UNKNOWN
     return falls, known, _hours(seen.time, known)
@@ -141,7 +151,7 @@ def _hours(time: Floats, known: NDArray[np.bool_]) -> float:
 def _ground(judgement: Judgement, since: float) -> float:
     """s, of the first row from *since* on at the angle of impact, before the body stands again."""
     after = judgement.time >= since
-    stands = after & ~np.isin(judgement.state, [int(state) for state in _DOWN])
+    stands = after & ~np.isin(judgement.state, [int(state) for state in (*_DOWN, TipState.UNKNOWN)])
     end = judgement.time[stands][0] if stands.any() else np.inf
     hits = after & (judgement.time < end) & (judgement.lean >= judgement.tipover.impact - 1e-9)
     return float(judgement.time[hits][0]) if hits.any() else nan
