@@ -100,6 +100,9 @@ def test_options_and_the_file_reach_the_monitor(here: Path, capsys: pytest.Captu
 
 def test_tables_and_a_picture(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     arguments = ["tipover", "fall.csv", "stands.csv", "-m", "tilt", "--report", "--plot", "out", "--falls", "5.8"]
+    assert run(arguments) == 1
+    assert "folder out does not exist" in capsys.readouterr().err
+    Path("out").mkdir()
     assert run(arguments) == 0
     out, err = capsys.readouterr()
     for words in ("what would have been told", "to the left", "ground at s", "a fall", "How long it was in each state"):

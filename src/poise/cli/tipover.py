@@ -11,8 +11,9 @@ from cyclopts import Parameter
 
 from poise.cli import show
 from poise.cli.options import Reading, Running, UsageError, usage
-from poise.cli.targets import PICTURES, make_room, targets
+from poise.cli.targets import PICTURES, distinct, targets
 from poise.cli.watching import Watching
+from poise.errors import FormatError
 
 if TYPE_CHECKING:
     from poise.data.event import TipEvent
@@ -66,8 +67,7 @@ def tipover(
         parameters = watching.build()
         grounds = _falls(falls)
         pictures = targets(files, plot, ".tipover.png", PICTURES, "--plot") if plot else {}
-        if not plot:
-            targets(files, None, ".tipover.png", (), "FILE")  # the same recording twice is a mistake here, too
+        distinct(files)
 
         def work(file: Path, tell: Callable[[str, float], None]) -> dict[str, Any]:
             return _watched(file, grounds, pictures.get(file), reading, running, watching, parameters, tell)
@@ -77,6 +77,9 @@ def tipover(
     except UsageError as error:
         show.problem(error)
         return 2
+    except FormatError as error:
+        show.problem(error)
+        return 1
     if json:
         show.as_json({"results": [_document(result) for result in results], "errors": refused})
     elif results:
@@ -130,7 +133,6 @@ def _watched(
     if picture:
         from poise.plots import save_figure, tip_over_figure
 
-        make_room(picture)
         save_figure(tip_over_figure(judgement, recording, title=file.stem, method=attitude.provenance.method), picture)
     return {
         "file": file,
