@@ -29,6 +29,7 @@ _HOME = {
     "Packet": "poise.data.packet",
     "PoiseError": "poise.errors",
     "Recording": "poise.data.recording",
+    "Responses": "poise.responses",
     "RestBias": "poise.estimators.rest_bias",
     "SelfCalibrating": "poise.estimators.self_calibrating.causal",
     "Slewed": "poise.estimators.slewed",
@@ -90,6 +91,7 @@ if TYPE_CHECKING:
     from poise.formats import read_learned as read_learned
     from poise.formats import sniff as sniff
     from poise.formats import write as write
+    from poise.responses import Responses as Responses
 
 
 def __getattr__(name: str) -> Any:
