@@ -221,6 +221,43 @@ def test_a_relay_that_fails_is_told_and_the_next_one_tried(tmp_path: Path, board
     assert told["responder"] == "power" and told["detail"]
 
 
+def test_a_relay_that_hung_in_a_release_is_set_right_when_it_comes_back(tmp_path: Path, board: Any) -> None:
+    """It would give the power back to a robot that tips by now."""
+    relay = {"type": "relay", "pin": 17, "active_high": True}
+    with made(tmp_path, {"power": relay, "log": dict(LOG)}) as responses:
+        pin, drive, come_back = board.pin(17), board.pin(17)._set_state, threading.Event()
+
+        def slowly(value: bool) -> None:
+            if not value:
+                come_back.wait(20.0)
+            drive(value)
+
+        responses.handle(TIPPING)
+        responses.handle(UPRIGHT)
+        pin._set_state = slowly
+        caller = threading.Thread(target=responses.acknowledge, daemon=True)
+        caller.start()
+        assert until(lambda: responses.failures)
+        responses.handle(TIPPING)  # fails, as the pin's driver still hangs; and comes back all the same
+        assert pin.state and len(responses.failures) == 2
+        come_back.set()
+        caller.join(10.0)
+        assert pin.state and [bool(each.state) for each in pin.states][-2:] == [False, True]
+        assert responses.active == ("tipping",)
+        pin._set_state = drive
+
+
+def test_two_logs_without_room_do_not_tell_each_other_for_ever(tmp_path: Path) -> None:
+    if not Path("/dev/full").exists():
+        pytest.skip("no /dev/full here")
+    logs = {name: {"type": "log", "file": "/dev/full"} for name in ("one", "two")}
+    stage = {"state": "tipping", "fire": ["one"]}
+    with made(tmp_path, logs, stage) as responses:
+        responses.handle(TIPPING)
+        assert responses.wait()
+        assert 4 <= len(responses.failures) < 40
+
+
 def test_the_broker_gets_the_alarm_and_keeps_it(tmp_path: Path) -> None:
     pytest.importorskip("paho.mqtt")
     with broker(tmp_path) as server:

@@ -45,11 +45,14 @@ Done = Callable[["Lane", Job, str | None], None]
 
 
 class Lane:
-    """A responder and what it still has to do; *done* hears how each job ended, None or why it failed."""
+    """A responder and what it still has to do.
 
-    def __init__(self, responder: Responder, done: Done) -> None:
+    *done* hears how each job ended, None or why it failed; *back*, that one which was given up has come back after all.
+    """
+
+    def __init__(self, responder: Responder, done: Done, back: Callable[[Lane], None]) -> None:
         self.responder, self.failing = responder, False
-        self._done = done
+        self._done, self._back = done, back
         self._pending: deque[Job] = deque()
         self._changed = threading.Condition()
         self._one = threading.Lock()
@@ -72,6 +75,8 @@ class Lane:
         with self._changed:
             if self._given_up:
                 refused.append((job, "hangs since an alarm before"))
+            elif self._closed:
+                refused.append((job, "the responses have ended"))
             elif job.alarm.count == 1 or not self._waits(job):  # a repetition of what is not yet said is nothing new
                 self._pending.append(job)
                 if len(self._pending) > _MOST:
@@ -81,7 +86,7 @@ class Lane:
         for late, why in refused:
             self._done(self, late, why)
         if running is not None and _graver(job.alarm, running.alarm):
-            self.responder.interrupt()
+            self.responder.interrupt(running.alarm)
 
     def overdue(self, now: float) -> Job | None:
         """The job that has hung beyond its time, once; its lane takes nothing more until it comes back."""
@@ -107,8 +112,8 @@ class Lane:
             self._changed.notify()
         if self._thread.is_alive():
             self._thread.join(0.0 if self._given_up else timeout)
-            if self._thread.is_alive():
-                self.responder.interrupt()
+            if self._thread.is_alive() and (running := self._running) is not None:
+                self.responder.interrupt(running.alarm)
         if not self.responder.immediate or self._one.acquire(timeout=timeout):
             self.responder.close()
 
@@ -117,9 +122,10 @@ class Lane:
             self._done(self, job, "hangs since an alarm before")
             return
         try:
-            self._do(job)
+            late, problem = self._do(job)
         finally:
             self._one.release()
+        self._tell(job, late, problem)
 
     def _run(self) -> None:
         while True:
@@ -130,9 +136,10 @@ class Lane:
                     return
                 job = self._pending.popleft()
                 self._begin(job, _GRACE)
-            self._do(job)
+            self._tell(job, *self._do(job))
 
-    def _do(self, job: Job) -> None:
+    def _do(self, job: Job) -> tuple[bool, str | None]:
+        """Whether it was given up meanwhile, and why it failed."""
         if self._running is not job:
             self._begin(job, 0.0)
         problem: str | None = None
@@ -146,8 +153,13 @@ class Lane:
         with self._changed:
             late, self._given_up = self._given_up, False
             self._running, self._deadline = None, math.inf
-        if not late:  # else it was told as hanging, and the next was tried
+        return late, problem
+
+    def _tell(self, job: Job, late: bool, problem: str | None) -> None:
+        if not late:
             self._done(self, job, problem)
+        elif problem is None:  # that it hung was told, and the next was tried
+            self._back(self)
 
     def _begin(self, job: Job, grace: float) -> None:
         self._running, self._deadline = job, time.monotonic() + self.responder.timeout + grace

@@ -52,8 +52,8 @@ class Responder(ABC):
     def fire(self, alarm: Alarm) -> None:
         """Do what it is there for."""
 
-    def interrupt(self) -> None:  # noqa: B027
-        """Break off what is being told, from another thread, because something graver is to be told."""
+    def interrupt(self, alarm: Alarm) -> None:  # noqa: B027
+        """Break off the telling of *alarm*, if it is that which is being told; called from another thread."""
 
     def close(self) -> None:  # noqa: B027
         """Let go of everything; never raises."""

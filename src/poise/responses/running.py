@@ -7,7 +7,8 @@ import os
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 from types import TracebackType
@@ -44,8 +45,8 @@ class Responses:
             unknown_after=config.unknown_after,
             warned=(*reporters, *logs),
         )
-        self._clock, self._lock = clock, threading.RLock()
-        self._lanes = {each.name: Lane(each, self._done) for each in config.responders}
+        self._clock, self._lock, self._order = clock, threading.RLock(), threading.Lock()
+        self._lanes = {each.name: Lane(each, self._done, self._back) for each in config.responders}
         self._logs, self._reporters = logs, reporters
         self._holds: dict[str, set[str]] = {name: set() for name in self._lanes}  # the stages that hold a responder
         self._failures: deque[Failure] = deque(maxlen=_KEPT)
@@ -100,20 +101,22 @@ class Responses:
         if not self._open:
             raise ResponseError("the responses are not open: use them in a with block, or call open() before")
         event = _sound(event)
-        with self._lock:
-            new = event.state != self._staging.state
-            jobs = self._jobs(self._staging.handle(event, self._clock()))
-        self._carry_out(jobs)
-        if new:
-            self._log(self._alarm("event", event))
+        with self._in_order():
+            with self._lock:
+                new = event.state != self._staging.state
+                jobs = self._jobs(self._staging.handle(event, self._clock()))
+            self._carry_out(jobs)
+            if new:
+                self._log(self._alarm("event", event))
 
     def acknowledge(self) -> tuple[str, ...]:
         """End the repetitions, and release what has fired if the body stands; the stages that hold even so."""
-        with self._lock:
-            jobs = self._jobs(self._staging.acknowledge())
-            active, event = self._staging.active(), self._staging.event
-        self._carry_out(jobs)
-        self._log(self._alarm("acknowledged", event))
+        with self._in_order():
+            with self._lock:
+                jobs = self._jobs(self._staging.acknowledge())
+                active, event = self._staging.active(), self._staging.event
+            self._carry_out(jobs)
+            self._log(self._alarm("acknowledged", event))
         return active
 
     @property
@@ -140,13 +143,23 @@ class Responses:
     def _alarm(self, kind: Kind, event: TipEvent, **more: Any) -> Alarm:
         return Alarm(kind, event, now_utc(), robot=self.config.name, active=self._staging.active(), **more)
 
+    @contextmanager
+    def _in_order(self) -> Iterator[None]:
+        """What is decided first is told first, whichever threads decide; but no relay that hangs stops them all."""
+        mine = self._order.acquire(timeout=_TICK)
+        try:
+            yield
+        finally:
+            if mine:
+                self._order.release()
+
     def _jobs(self, steps: Iterable[Step]) -> list[tuple[str, Job]]:
         """What *steps* ask of whom; called with the lock held."""
         jobs = []
         for step in steps:
             alarm = self._alarm(step.what, step.event, stage=step.stage.name, count=step.count)
             if step.what == "fired":
-                for name in step.stage.fire:
+                for name in dict.fromkeys((*step.stage.fire, *self._logs)):
                     self._holds[name].add(step.stage.name)
                     jobs.append((name, Job(alarm, tried=frozenset([name]))))
                 continue
@@ -197,6 +210,9 @@ class Responses:
         first, lane.failing = not lane.failing, True
         with self._lock:
             self._failures.append(Failure(now_utc(), name, problem, alarm))
+        if alarm.kind == "failure":  # whoever told it would fail like this one: not again
+            LOGGER.error("%s failed, and could not tell that %s", name, alarm.sentence())
+            return
         told = replace(alarm, failures=(*alarm.failures, f"{name}: {problem}"))
         if alarm.kind == "fired":
             following = [*job.then, *(each for each in lane.responder.if_failed if each not in job.then)]
@@ -208,16 +224,28 @@ class Responses:
                 self._submit(following[0], Job(told, then=tuple(following[1:]), tried=tried))
             elif lane.responder.if_failed or job.then:
                 problem = f"{problem}; none of those to try in its place was left"
-        self._report(name, problem, alarm, everyone=first and alarm.kind != "failure")
+        self._report(name, problem, alarm, everyone=first)
 
     def _report(self, name: str, problem: str, alarm: Alarm, everyone: bool) -> None:
-        """Tell the logs, and, the first time and where it is no failure to tell a failure, everyone who tells somebody."""
+        """Tell the logs, and, the first time, everyone who tells somebody."""
         if all(getattr(self._lanes[each].responder, "file", None) for each in self._logs):
             LOGGER.error("%s failed: %s", name, problem)  # else one of the logs does
         failure = self._alarm("failure", alarm.event, stage=alarm.stage, responder=name, detail=problem)
         for other in (*self._logs, *(self._reporters if everyone else ())):
             if other != name:
                 self._submit(other, Job(failure, tried=frozenset([other])))
+
+    def _back(self, lane: Lane) -> None:
+        """What was given up has ended after all; a relay may have done late what has been overtaken, and is set right."""
+        name = lane.responder.name
+        with self._lock:
+            held, event = sorted(self._holds[name]), self._staging.event
+            alarm = self._alarm("fired", event, stage=held[0] if held else "")
+        if lane.responder.immediate and held:
+            lane.submit(Job(alarm, tried=frozenset([name])))
+        elif lane.failing:
+            lane.failing = False
+            self._log(self._alarm("recovered", event, responder=name))
 
     def _trouble(self, name: str, why: str | None) -> None:
         """What a responder tells of itself in between."""
@@ -235,10 +263,11 @@ class Responses:
     def _supervise(self) -> None:
         while not self._end.wait(self._pause()):
             try:
-                with self._lock:
-                    jobs = self._jobs(self._staging.due(self._clock()))
-                if jobs:
-                    self._carry_out(jobs)
+                if self._staging.next_due() <= self._clock():
+                    with self._in_order():
+                        with self._lock:
+                            jobs = self._jobs(self._staging.due(self._clock()))
+                        self._carry_out(jobs)
                 for lane in self._lanes.values():
                     if (job := lane.overdue(time.monotonic())) is not None:
                         # not here: what is tried next may hang too

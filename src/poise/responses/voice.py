@@ -58,8 +58,9 @@ class Voice(Responder):
         if not 10 <= self.volume <= 200:
             self.refuse("volume", "10 to 200 (below, nobody hears it)", self.volume)
         self._texts = phrases.texts(self.language, self.text, self.name or self.kind)
+        self._lock = threading.Lock()
+        self._telling: Alarm | None = None  # None, too, once it has been broken off
         self._speaking: subprocess.Popen[Any] | None = None
-        self._broken_off = threading.Event()
 
     def check(self) -> str:
         program = shutil.which("espeak-ng")
@@ -79,7 +80,8 @@ class Voice(Responder):
         self.check()
 
     def fire(self, alarm: Alarm) -> None:
-        self._broken_off.clear()
+        with self._lock:
+            self._telling = alarm
         words = self.words(alarm)
         with tempfile.TemporaryDirectory() as folder:
             seconds = self._render(words, Path(folder) / "said.wav")
@@ -92,22 +94,25 @@ class Voice(Responder):
             return
         began = time.monotonic()
         try:
-            self._espeak(words)
+            self._espeak(words, speaks=alarm)
         except ResponseError:
-            if self._broken_off.is_set():
+            if self._telling is not alarm:
                 return
             raise
         took = time.monotonic() - began
-        if took < _HEARD * seconds and not self._broken_off.is_set():
+        if took < _HEARD * seconds and self._telling is alarm:
             raise ResponseError(
                 f"espeak-ng was done after {took:.2f} s with a text of {seconds:.1f} s: nobody can have heard it; look at "
                 "the sound device (aplay -l)"
             )
 
-    def interrupt(self) -> None:
-        self._broken_off.set()
-        if (process := self._speaking) is not None:
-            kill(process)
+    def interrupt(self, alarm: Alarm) -> None:
+        with self._lock:
+            if self._telling is not alarm or self.wav is not None:
+                return
+            self._telling = None
+            if self._speaking is not None:
+                kill(self._speaking)
 
     def words(self, alarm: Alarm) -> str:
         """What is said of *alarm*."""
@@ -141,19 +146,30 @@ class Voice(Responder):
             )
         return samples.size / rate
 
-    def _espeak(self, words: str, *options: str, volume: int | None = None) -> None:
+    def _espeak(self, words: str, *options: str, volume: int | None = None, speaks: Alarm | None = None) -> None:
+        """Run espeak-ng; where it *speaks* an alarm, so that it can be broken off."""
+
+        def started(process: subprocess.Popen[Any]) -> None:
+            with self._lock:
+                if self._telling is speaks:
+                    self._speaking = process
+                else:
+                    kill(process)
+
         loud = self.volume if volume is None else volume
         argv = ["espeak-ng", "-b", "1", "-v", self._voice, "-s", str(self.speed), "-a", str(loud), *options]
         if self.device and not options:
             argv += ["-d", self.device]
         try:
-            said = run([*argv, "--", words], self.timeout, started=self._started)
+            said = run([*argv, "--", words], self.timeout, started=_unwatched if speaks is None else started)
         finally:
-            self._speaking = None
+            with self._lock:
+                self._speaking = None
         for line in said.splitlines():
             if line.lower().startswith(("error", "can't")):
                 cannot = "" if options else "; no sound device? (aplay -l)"
                 raise ResponseError(f"espeak-ng said: {line.strip()[:200]}{cannot}")
 
-    def _started(self, process: subprocess.Popen[Any]) -> None:
-        self._speaking = process
+
+def _unwatched(process: subprocess.Popen[Any]) -> None:
+    pass
