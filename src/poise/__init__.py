@@ -30,6 +30,7 @@ _HOME = {
     "Packet": "poise.data.packet",
     "PoiseError": "poise.errors",
     "Recording": "poise.data.recording",
+    "Responses": "poise.responses",
     "RestBias": "poise.estimators.rest_bias",
     "SelfCalibrating": "poise.estimators.self_calibrating.causal",
     "Slewed": "poise.estimators.slewed",
@@ -94,6 +95,7 @@ if TYPE_CHECKING:
     from poise.formats import write as write
     from poise.monitor import Monitor as Monitor
     from poise.monitor import TipOver as TipOver
+    from poise.responses import Responses as Responses
 
 
 def __getattr__(name: str) -> Any:
