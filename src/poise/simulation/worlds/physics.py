@@ -94,7 +94,7 @@ class Physics:
             renderer = self._renderers[width, height]
             renderer.update_scene(self.data, camera)
             return np.array(renderer.render(), np.uint8)
-        except (ImportError, RuntimeError, OSError, AttributeError) as problem:
+        except (ImportError, RuntimeError, OSError, AttributeError, self._mujoco.FatalError) as problem:
             said = str(problem).partition("\n")[0] or type(problem).__name__
             raise WorldError(
                 f"no picture without a screen's OpenGL ({said}): "
