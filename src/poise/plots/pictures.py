@@ -27,7 +27,8 @@ def save_picture(frames: NDArray[np.uint8], path: str | Path, rate: float = 10.0
     beside = path.with_name(f".{path.name[:100]}.part")
     try:
         if moves:
-            palette = pictures[len(pictures) // 2].quantize(64)  # one for all: colours do not flicker
+            middle = pictures[len(pictures) // 2]
+            palette = middle.quantize(96, Image.Quantize.MAXCOVERAGE)  # one for all: colours do not flicker
             first, *others = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
             first.save(
                 beside, "GIF", save_all=True, append_images=others, duration=round(1000 / rate), loop=0, optimize=True

@@ -25,7 +25,9 @@ class BalanceOptions(NamedTuple):
     lean: Annotated[float, "deg", "how far forward it leans on the stand", (-30.0, 30.0)] = 0.0
     heading: Annotated[float, "deg", "where it looks, counter-clockwise from north", (-360.0, 360.0)] = 0.0
     bumps: Annotated[float, "m", "height of the ridges on the floor, of which 400 lie within 4 m", (0.0, 0.02)] = 0.0
-    vibration: Annotated[float, "m/s²", "RMS of the shaking by the drive, about 45 Hz", (0.0, 20.0)] = 0.0
+    vibration: Annotated[
+        float, "m/s²", "RMS of the shaking by the drive while it is free, about 45 Hz", (0.0, 20.0)
+    ] = 0.0
     motor_lag: Annotated[float, "s", "time constant of a motor's torque", (0.0, 0.5)] = 0.02
     stall_torque: Annotated[float, "N m", "most torque of a motor, which falls to 0 at no_load_speed", (0.01, 10.0)] = (
         0.45
@@ -83,7 +85,7 @@ class Balance(World):
             torques.append(min(max(now, min(least, 0.0)), max(most, 0.0)))
         self._torques = (torques[0], torques[1])
         self._motors[:] = torques
-        if self._rumble is not None:
+        if self._rumble is not None and self.powered and not self._held:  # on the stand the drive is idle
             self.physics.push(self._body, self._rumbling * self._rumble.next(), _AXLE)
 
     def _touched(self) -> bool:
