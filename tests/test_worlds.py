@@ -17,8 +17,9 @@ from poise import SelfCalibrating, estimate, evaluate
 from poise.errors import PoiseError
 from poise.math import arrays
 from poise.simulation import PERFECT, worlds
+from poise.simulation.worlds.world import GRAVITY
 
-FIELD, GRAVITY = np.array([0.0, 19.7, -43.1]), 9.8124
+FIELD = np.array([0.0, 19.7, -43.1])
 
 
 def fallen(**options: Any) -> worlds.Balance:
@@ -116,6 +117,7 @@ def test_a_stream_is_the_same_device_packet_by_packet() -> None:
         (lambda: worlds.make("balance", wheels=3), "no option 'wheels'; there are hold"),
         (lambda: worlds.make("balance", bumps=1.0), "bumps: expected 0 to 0.02 m"),
         (lambda: worlds.make("balance", sensor="MPU-9999"), "expected one of MPU-6050"),
+        (lambda: worlds.make("balance", seed=-1), "seed: expected a whole number"),
         (lambda: worlds.make("balance", rate=1.0), "rate: expected 10 to 4000"),
         (lambda: worlds.make("balance").step([1.0]), r"expected a command of 2 numbers \(left wheel, N m"),
         (lambda: worlds.make("balance").step([1.0, float("nan")]), "expected a command"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Callable, Iterator, Sequence
 from math import ceil, nan
 from time import monotonic, sleep
@@ -22,6 +23,7 @@ from poise.simulation.worlds.physics import Physics, WorldError, model_text
 Floats = NDArray[np.float64]
 Driver = Callable[["World"], ArrayLike | None]
 
+GRAVITY = 9.8124  # m/s², as in the models
 SENSOR = "MPU-6050+QMC5883L"
 _STEP = 0.001  # s, longest step of the physics
 _SETTLING = 0.2  # s before time 0: contacts come to rest
@@ -66,6 +68,8 @@ class World:
     def __init__(self, *, seed: int = 0, sensor: str | Sensor = SENSOR, rate: float = 200.0, **options: Any) -> None:
         if not (isinstance(rate, (int, float)) and 10.0 <= rate <= 4000.0):
             raise WorldError(f"rate: expected 10 to 4000 samples per second, found {rate!r}")
+        if not (isinstance(seed, int) and seed >= 0):
+            raise WorldError(f"seed: expected a whole number, 0 or more, found {seed!r}")
         if unknown := [name for name in options if name not in self.Options._fields]:
             raise WorldError(
                 f"{self.name} has no option {unknown[0]!r}; there are {', '.join(self.Options._fields) or 'none'}"
@@ -92,8 +96,8 @@ class World:
         }
         self._body = self.physics.body(self.pushed)
         self._pushes: list[tuple[float, Floats, Floats | None]] = []
-        self._log: dict[str, list[Packet]] = {name: [] for name in self.sensors}
-        self._sent: dict[str, list[Floats]] = {name: [] for name in self.sensors}
+        self._log = {name: array("d") for name in self.sensors}  # flat: half an hour of objects would fill the memory
+        self._sent = {name: array("d") for name in self.sensors}
         self._count = 0
         self._prepare()
         for _ in range(round(_SETTLING / self._dt)):
@@ -194,17 +198,17 @@ class World:
         name = sensor or self.sensors[0]
         if name not in self.sensors:
             raise WorldError(f"{self.name} has no sensor {name!r}; there are {', '.join(self.sensors)}")
-        packets = self._log[name]
-        table = np.array(self._sent[name][: len(packets)]).reshape(-1, 13)
-        stamps = np.array([packet.time for packet in packets], float)
+        came = np.array(self._log[name]).reshape(-1, 10)
+        table = np.array(self._sent[name]).reshape(-1, 11)[: len(came)]
+        stamps = came[:, 0].copy()
         truth = Attitude.of(stamps, table[:, :4], heading_reference="magnetic")
         truth.rate[:], truth.bias[:] = table[:, 4:7], table[:, 7:10]
         still = (np.linalg.norm(table[:, 4:7], axis=1) < _MOVING_RATE) & (table[:, 10] < _MOVING_ACCELERATION)
         return Recording(
             time=stamps,
-            gyr=np.array([packet.gyr for packet in packets], float).reshape(-1, 3),
-            acc=np.array([packet.acc for packet in packets], float).reshape(-1, 3),
-            mag=np.array([packet.mag for packet in packets], float).reshape(-1, 3),
+            gyr=came[:, 1:4].copy(),
+            acc=came[:, 4:7].copy(),
+            mag=came[:, 7:10].copy(),
             truth=truth,
             moving=~still if not still.all() else None,
             name=self.name if name == self.sensors[0] else f"{self.name}-{name}",
@@ -237,12 +241,12 @@ class World:
         rate, _, field, quat = self._views[name]
         device = self.devices[name]
         if device.sample(self.time, gyr, acc, field.copy()):
-            weight = abs(float(np.linalg.norm(acc)) - 9.8124)
-            row = np.concatenate([quat, rate, device.gyr_bias, [weight, 0.0, 0.0]])
-            self._sent[name].append(row)
+            beside_gravity = abs(float(np.linalg.norm(acc)) - GRAVITY)
+            self._sent[name].frombytes(np.concatenate([quat, rate, device.gyr_bias, [beside_gravity]]).tobytes())
         came = device.arrived(self.time)
         self.arrived[name] = came
-        self._log[name].extend(came)
+        for time, of_gyr, of_acc, of_mag in came:
+            self._log[name].frombytes(np.concatenate([[time], of_gyr, of_acc, of_mag]).tobytes())
 
 
 def run(world: World, duration: float, driver: Driver | None = None) -> World:
