@@ -48,6 +48,7 @@ class Case(NamedTuple):
 
 CASES = (
     Case("balance", {"bumps": 0.004, "vibration": 1.0}, 120.0, {"robot on bumps": "imu"}),
+    Case("balance", {"bumps": 0.004, "vibration": 1.0, "hold": 1.0}, 120.0, {"robot, let go after 1 s": "imu"}),
     Case("attitude", {}, 120.0, {"attitude body": "imu"}),
     Case("arm", {}, 300.0, {"arm, forearm": "forearm", "arm, upper arm": "upper_arm"}),
     Case("handle", {}, 300.0, {"handle": "imu"}),
