@@ -88,6 +88,7 @@ def test_the_list_names_worlds_options_and_sources(capsys: pytest.CaptureFixture
         (["arm", "--at", "hand"], 2, "arm has forearm, upper_arm"),
         (["balance", "-o", "robot.xls"], 2, r"ending in \.parquet"),
         (["balance", "--picture", "robot.jpg"], 2, r"ending in \.png"),
+        (["balance", "-o", "nowhere/robot.csv"], 1, "folder nowhere does not exist"),
     ],
 )
 def test_refusals(arguments: list[str], code: int, says: str, capsys: pytest.CaptureFixture[str]) -> None:

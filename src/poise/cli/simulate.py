@@ -130,19 +130,16 @@ def _check(world: World, target: Path, picture: Path | None, at: str | None) -> 
 
 
 def _write(world: World, duration: float, target: Path, picture: Path | None, at: str, json: bool) -> int:
-    from poise.cli.targets import make_room
     from poise.formats import write
 
     frames = _run(world, duration, target, picture)
     recording = world.recording(at)
-    make_room(target)
     write(recording, target)
     if picture is not None:
         import numpy as np
 
         from poise.plots import save_picture
 
-        make_room(picture)
         save_picture(np.array(frames or [world.render()]), picture, _A_SECOND)
     if json:
         show.as_json(

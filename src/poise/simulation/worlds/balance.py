@@ -21,9 +21,7 @@ _RUMBLE, _RUMBLE_DAMPING = 45.0, 0.3  # Hz: where the frame resonates
 class BalanceOptions(NamedTuple):
     """How the robot and its floor are."""
 
-    hold: Annotated[
-        float, "s", "how long a stand holds it upright before it is let go; a gyroscope's bias is learnt in 1.5 s"
-    ] = 2.0
+    hold: Annotated[float, "s", "how long a stand holds it before it is let go; a bias is learnt in 1.5 s"] = 2.0
     lean: Annotated[float, "deg", "how far forward it leans on the stand", (-30.0, 30.0)] = 0.0
     heading: Annotated[float, "deg", "where it looks, counter-clockwise from north", (-360.0, 360.0)] = 0.0
     bumps: Annotated[float, "m", "height of the ridges on the floor, of which 400 lie within 4 m", (0.0, 0.02)] = 0.0
