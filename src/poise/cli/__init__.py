@@ -16,6 +16,7 @@ from poise.cli.evaluate import evaluate
 from poise.cli.methods import methods
 from poise.cli.plot import plot
 from poise.cli.respond import respond
+from poise.cli.simulate import simulate
 from poise.cli.sniff import sniff
 from poise.cli.tipover import tipover
 
@@ -42,6 +43,7 @@ app.command(respond)
 app.command(sniff)
 app.command(methods)
 app.command(demo)
+app.command(simulate)
 
 
 def main() -> None:
