@@ -308,7 +308,7 @@ def short(rows: int) -> Recording:
         (short(5), "at least 10 rows, found 5"),
         (replace(short(100), gyr=np.full((100, 3), np.nan)), "gyroscope"),
         (replace(short(100), acc=np.full((100, 3), np.nan)), "accelerometer"),
-        (replace(short(100), time=np.zeros(100)), "rise"),
+        (replace(short(40), time=np.zeros(40)), "rise"),
         (replace(short(400), gyr=np.where(np.arange(1200).reshape(400, 3) % 600 < 3, 0.0, np.nan)), "10 rows in a row"),
         (replace(short(100), time=np.cumsum(np.where(np.arange(100) % 2, 1e-6, 0.5))), "even rate"),
     ],

@@ -210,7 +210,8 @@ def test_samples_too_large_for_a_square_draw_without_a_warning(
 
 @pytest.mark.filterwarnings("error")
 def test_stamps_that_are_all_equal_draw_without_a_warning(recording: poise.Recording, tmp_path: Path) -> None:
-    plots.save_figure(plots.recording_figure(replace(recording, time=np.full(len(recording), 5.0))), tmp_path / "a.png")
+    few = recording[:40]
+    plots.save_figure(plots.recording_figure(replace(few, time=np.full(len(few), 5.0))), tmp_path / "a.png")
 
 
 @pytest.mark.filterwarnings("error")
