@@ -16,7 +16,9 @@ from poise.cli.evaluate import evaluate
 from poise.cli.methods import methods
 from poise.cli.plot import plot
 from poise.cli.respond import respond
+from poise.cli.simulate import simulate
 from poise.cli.sniff import sniff
+from poise.cli.tipover import tipover
 
 app = App(
     name="poise",
@@ -36,10 +38,12 @@ app.command(compare)
 app.command(conform)
 app.command(plot)
 app.command(doctor)
+app.command(tipover)
 app.command(respond)
 app.command(sniff)
 app.command(methods)
 app.command(demo)
+app.command(simulate)
 
 
 def main() -> None:

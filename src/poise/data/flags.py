@@ -66,7 +66,10 @@ SENTENCES: dict[Flag, str] = {
     Flag.MAG_CLIPPED: "the magnetometer is at the end of its range: left out",
     Flag.CLOCK_JUMP: "the clock was set: the usual interval is taken",
     Flag.JITTER: "a step between stamps of less than half or more than twice the usual",
-    Flag.UNSETTLED: "after rotation that was not measured: the attitude may be off by more than 6 degrees, and is settling",
+    Flag.UNSETTLED: (
+        "after rotation that was not measured, or with a bias that turned out wrong: "
+        "the attitude may be off by more than 6 degrees, and is settling"
+    ),
     Flag.CORRECTION_FORCED: "the correction stood out from its history: the preset gain was forced",
 }
 
@@ -103,6 +106,11 @@ MAG_CLIPPED = int(Flag.MAG_CLIPPED)
 CLOCK_JUMP = int(Flag.CLOCK_JUMP)
 JITTER = int(Flag.JITTER)
 UNSETTLED = int(Flag.UNSETTLED)
+
+
+def why_invalid(flags: int) -> str:
+    """The sentences of those of *flags* for which an attitude is not to be acted on; empty without one."""
+    return "; ".join(SENTENCES[flag] for flag in Flag if flag & flags & INVALID)
 
 
 def valid(flags: NDArray[np.uint32]) -> NDArray[np.bool_]:
