@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 import signal
 import subprocess
@@ -15,6 +16,7 @@ from typing import Any
 import pytest
 
 from poise.cli import run
+from poise.monitor.settings import read_settings
 from poise.responses import RESPONDERS, load_config
 from poise.responses.config import _STAGE, _TOP
 from programs import broker, hook, program, until
@@ -52,6 +54,7 @@ def test_the_configuration_and_the_program_run(
         text = text.replace('"localhost"', '"127.0.0.1"').replace("systemctl", "true").replace("# wav", "wav")
         (tmp_path / "robot.toml").write_text(text)
         assert load_config("robot.toml").name == "robot 7"
+        assert read_settings("robot.toml").range.forward == pytest.approx(math.radians(25.0))  # one file for both
         assert run(["respond", "--config", "robot.toml", "--test"]) == 0, capsys.readouterr()
         seen: dict[str, Any] = {}
         exec(CODE.replace("    ...\n", "    active = responses.active\n    responses.wait()\n"), seen)
