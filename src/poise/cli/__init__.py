@@ -13,6 +13,7 @@ from poise.cli.demo import demo
 from poise.cli.doctor import doctor
 from poise.cli.estimate import estimate
 from poise.cli.evaluate import evaluate
+from poise.cli.live import live
 from poise.cli.methods import methods
 from poise.cli.plot import plot
 from poise.cli.sniff import sniff
@@ -36,6 +37,7 @@ app.command(conform)
 app.command(plot)
 app.command(doctor)
 app.command(sniff)
+app.command(live)
 app.command(methods)
 app.command(demo)
 

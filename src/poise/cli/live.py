@@ -1,0 +1,134 @@
+"""``poise live``: devices in, attitude out."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Parameter
+
+from poise.cli import show
+from poise.cli.options import Reading, UsageError, method_choices, usage
+from poise.errors import PoiseError
+
+if TYPE_CHECKING:
+    from poise.live.server import Options, Server
+
+
+def live(
+    sources: Annotated[list[str] | None, Parameter(name="SOURCE", negative="")] = None,
+    /,
+    *,
+    method: Annotated[tuple[str, ...], Parameter(name=["--method", "-m"], negative="")] = ("self-calibrating",),
+    set_: Annotated[tuple[str, ...], Parameter(name="--set", negative="")] = (),
+    host: str = "127.0.0.1",
+    port: int = 8760,
+    token: Annotated[tuple[str, ...], Parameter(negative="")] = (),
+    allow_host: Annotated[tuple[str, ...], Parameter(negative="")] = (),
+    max_rate: float = 5000.0,
+    reading: Reading | None = None,
+) -> int:
+    """Serve the attitude of devices as their samples come.
+
+    SOURCE is where samples come from; any number of them:
+
+    - `ws`: devices connect by themselves and push, to `ws://HOST:PORT/ws/device/NAME`; always on, whatever else is given
+    - `replay:FILE`: a recording as a device, `replay:FILE@10` ten times as fast, `@max` as fast as it can be taken
+
+    Attitudes come out over WebSocket and HTTP; docs/live.md has the protocol, a client of ten lines and a `curl` example.
+    Only this machine can connect unless --host says otherwise, and then a --token is needed.
+
+    Examples: `poise live`; `poise live replay:walk.csv -m self-calibrating -m two-stage`;
+    `poise live --host 0.0.0.0 --token $(openssl rand -hex 16)`
+
+    Parameters
+    ----------
+    sources
+        Where samples come from.
+    method
+        What runs on every device; repeat for several side by side.
+    set_
+        A parameter, `NAME=VALUE`, of every method above that has it.
+    host
+        The address to listen on.
+    port
+        The port; 0 takes a free one.
+    token
+        What clients must show; `read:…`, `write:…` and `device:…` (or `read+write:…`) may do just that, a bare one
+        everything. Repeat for more. The environment's POISE_TOKEN counts, too, and is not seen in a list of processes.
+    allow_host
+        One more name that this machine goes by.
+    max_rate
+        Samples a second above which a device is cut off.
+    """
+    try:
+        server = _server(sources or [], method, set_, (host, port, token, allow_host), max_rate, reading or Reading())
+    except UsageError as error:
+        show.problem(error)
+        return 2
+    except PoiseError as error:
+        show.problem(error)
+        return 1
+    from poise.live.serving import run
+
+    try:
+        run(_told(server))
+    except (PoiseError, OSError) as error:
+        show.problem(error)
+        return 1
+    return 0
+
+
+def _server(
+    words: list[str], names: tuple[str, ...], settings: tuple[str, ...], where: Any, max_rate: float, reading: Reading
+) -> Server:
+    from poise.live.serving import check_installed
+
+    check_installed()
+    from poise.live.access import AccessError
+    from poise.live.devices import DeviceError
+    from poise.live.hub import Hub
+    from poise.live.server import Server
+    from poise.live.sources import source
+
+    if not 1.0 <= max_rate <= 1e6:
+        usage(f"--max-rate {max_rate}: expected samples a second, 1 to 1e6")
+    hub = Hub(method_choices(names, settings), max_rate)
+    try:
+        options = _options(*where)
+        found = [source(word, reading.read) for word in words]
+        return Server(hub, [each for each in found if each is not None], options)
+    except (AccessError, DeviceError) as error:
+        usage(str(error))
+
+
+def _options(host: str, port: int, tokens: tuple[str, ...], hosts: tuple[str, ...]) -> Options:
+    from poise.live.access import parsed_tokens
+    from poise.live.server import Options
+
+    if not 0 <= port <= 65535:
+        usage(f"--port {port}: expected 0 to 65535")
+    if secret := os.environ.get("POISE_TOKEN"):
+        tokens = (*tokens, secret)
+    return Options(host, port, parsed_tokens(tokens), hosts)
+
+
+async def _told(server: Server) -> None:
+    """Runs *server* and says where it is and what happens to its devices."""
+    import asyncio
+
+    server.hub.on_event.append(lambda event: show.note(event["text"]))
+    ready = asyncio.Event()
+
+    async def tell() -> None:
+        await ready.wait()
+        options = server.options
+        name = f"[{options.host}]" if ":" in options.host else options.host
+        print(f"poise live on http://{name}:{options.port}/  (Ctrl-C ends it)", flush=True)
+
+    telling = asyncio.create_task(tell())
+    try:
+        await server.run(ready)
+    finally:
+        telling.cancel()
+    print(f"ended: {sum(d.health.samples for d in server.hub.devices.values())} samples", flush=True)

@@ -1,0 +1,297 @@
+"""The server: the hub's devices and attitudes over HTTP and WebSocket. docs/live.md has the protocol."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import signal
+import socket
+import time
+from collections.abc import AsyncIterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+from poise.data.flags import SENTENCES, Flag
+from poise.errors import PoiseError
+from poise.live import frames, http
+from poise.live.access import Access, Gate
+from poise.live.hub import Hub, HubError
+from poise.live.methods import Choice, described
+from poise.live.sockets import DeviceSocket, Viewer, choices
+from poise.version import __version__
+
+if TYPE_CHECKING:
+    from poise.live.batch import Batch
+    from poise.live.devices import Source
+
+DASHBOARD = Path(__file__).parent / "dashboard"
+_HEALTH_EVERY = 1.0  # s
+_FLAGS_EVERY = 0.25  # s that a flag stays in `flags_since`, so that every viewer sees it
+_QUICKEST, _SLOWEST = 0.004, 0.02  # s between ticks: as often as a quarter of the time allows
+_BACKLOG = 8192
+
+
+class ServerError(PoiseError):
+    """Why the server cannot start."""
+
+
+class Recorder(Protocol):
+    """Whatever keeps what comes and goes."""
+
+    def open(self, hub: Hub) -> None:
+        """From now on keeps what *hub* takes; devices go on where they were when it was closed or killed."""
+
+    def close(self) -> None:
+        """Everything is on the disk when it returns."""
+
+    def condition(self) -> dict[str, Any]:
+        """``reason`` why nothing is written, or None; ``waiting`` and ``lost`` samples; ``text`` for people."""
+
+    def news(self) -> tuple[dict[str, Any] | None, dict[str, int]] | None:
+        """The condition where it changed, and for each device the number below which all is durable; None for no news."""
+
+
+@dataclass
+class Options:
+    """Where a server listens, and for whom."""
+
+    host: str = "127.0.0.1"
+    port: int = 8760
+    tokens: dict[str, Any] = field(default_factory=dict)
+    hosts: tuple[str, ...] = ()
+    certificate: tuple[Path, Path] | None = None
+    """certificate and key, for HTTPS"""
+
+
+class Server:
+    """A hub, its sources, its recorder and whoever is connected, in one event loop."""
+
+    def __init__(
+        self, hub: Hub, sources: Sequence[Source] = (), options: Options | None = None, recorder: Recorder | None = None
+    ) -> None:
+        self.hub, self.sources, self.options, self.recorder = hub, sources, options or Options(), recorder
+        self.viewers: dict[Viewer, None] = {}
+        self.device_sockets: dict[DeviceSocket, None] = {}
+        self.listeners: set[asyncio.Queue[dict[str, Any]]] = set()
+        self.access = Access(self.options.host, self.options.tokens, self.options.hosts)
+        self.app = Gate(http.application(self), self.access, http.needed)
+        self.stopping = asyncio.Event()
+        self.began = time.monotonic()
+        self._frame = 0
+        self._changed = False
+        self._warming: set[Choice] = set()
+        self._tasks: set[asyncio.Task[None]] = set()
+        hub.on_batch.append(self._to_viewers)
+        hub.on_event.append(self._tell_event)
+        hub.on_change.append(self._note_change)
+
+    # -- running --------------------------------------------------------------------------------------------------
+
+    async def run(self, ready: asyncio.Event | None = None) -> None:
+        """Serves until :attr:`stopping` is set or the process is told to stop. Raises :class:`ServerError`."""
+        from poise.live.serving import serve
+
+        with _listening(self.options) as sockets:
+            loop = asyncio.get_running_loop()
+            for number in (signal.SIGINT, signal.SIGTERM):
+                with suppress(NotImplementedError, RuntimeError, ValueError):
+                    loop.add_signal_handler(number, self.stopping.set)
+            if self.recorder is not None:
+                self.recorder.open(self.hub)
+            for work in (self._ticking(), self._warm_all(), *map(self._feed, self.sources)):
+                self._spawn(work)
+            try:
+                await serve(self, sockets, ready)
+            finally:
+                for task in list(self._tasks):
+                    task.cancel()
+                await asyncio.gather(*self._tasks, return_exceptions=True)
+                self.hub.tick()
+                if self.recorder is not None:
+                    await asyncio.to_thread(self.recorder.close)
+
+    def _spawn(self, work: Any) -> None:
+        task = asyncio.get_running_loop().create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    async def _ticking(self) -> None:
+        due, forget = 0.0, 0.0
+        while True:
+            self.hub.tick()
+            now = time.monotonic()
+            self._warm_wanted()
+            if self.recorder is not None:
+                self._acknowledge()
+            if self._changed:
+                self._changed = False
+                self._say(self.device_list())
+            if now > forget:
+                forget = now + _FLAGS_EVERY
+                self.hub.newest.forget_flags()
+            if now > due:
+                due = now + _HEALTH_EVERY
+                self._say(self.health())
+            await asyncio.sleep(min(max(4.0 * self.hub.tick_cost, _QUICKEST), _SLOWEST))
+
+    async def _warm_all(self) -> None:
+        for choice in self.hub.methods:
+            await self._warm(choice)
+
+    def _warm_wanted(self) -> None:
+        for device in self.hub.devices.values():
+            for each in device.wanted:
+                if isinstance(each, Choice) and each not in self._warming:
+                    self._spawn(self._warm(each))
+
+    async def _warm(self, choice: Choice) -> None:
+        self._warming.add(choice)
+        try:
+            await asyncio.to_thread(choice.warm)
+            for device in self.hub.devices.values():
+                if device.wanted:
+                    self.hub.set_methods(device, self.hub.wanted(device))
+        finally:
+            self._warming.discard(choice)
+
+    async def _feed(self, source: Source) -> None:
+        """A source's packets to the hub; what goes wrong with it is an event, and other devices go on."""
+        try:
+            async for arrival in source.arrivals():
+                device = self.hub.device(arrival.device, source.name)
+                try:
+                    device.receive(arrival.rows, time.monotonic(), arrival.sequence)
+                except PoiseError as problem:
+                    device.health.rejected += 1
+                    self.hub.event("refused", device, f"{device.name}: {problem}")
+            self.hub.event("end", None, f"{source.name} has come to its end")
+        except (PoiseError, OSError) as problem:
+            self.hub.event("failed", None, f"{source.name}: {problem}")
+
+    # -- what is said ---------------------------------------------------------------------------------------------
+
+    def next_frame(self) -> int:
+        self._frame += 1
+        return self._frame
+
+    def _say(self, message: dict[str, Any]) -> None:
+        text = json.dumps(message)
+        for viewer in self.viewers:
+            viewer.say(text)
+
+    def _to_viewers(self, batch: Batch) -> None:
+        every = [viewer for viewer in self.viewers if viewer.wants_every]
+        if every:
+            frame = frames.attitudes(batch.records(), self.next_frame())
+            for viewer in every:
+                viewer.put(batch, frame)
+
+    def _tell_event(self, event: dict[str, Any]) -> None:
+        self._say(event)
+        for queue in self.listeners:
+            if queue.full():
+                queue.get_nowait()
+            queue.put_nowait(event)
+
+    def _note_change(self) -> None:
+        self._changed = True
+
+    def _acknowledge(self) -> None:
+        assert self.recorder is not None
+        told = self.recorder.news()
+        if told is None:
+            return
+        condition, durable = told
+        for each in list(self.device_sockets):
+            number = durable.get(each.device.name)
+            if condition is not None:
+                self._spawn(each.tell(type="recording", **condition))
+            if number is not None:
+                self._spawn(each.tell(type="ack", next=number))
+        if condition is not None:
+            self.hub.event("recording", None, condition["text"])
+
+    def hello(self, may_write: bool = False) -> dict[str, Any]:
+        """The first message to a viewer."""
+        return {
+            "type": "hello",
+            "protocol": frames.VERSION,
+            "server": f"poise {__version__}",
+            "time": time.time(),
+            "may_write": may_write,
+            "methods": described(),
+            "flags": {f.bit_length() - 1: [f.name, SENTENCES[f]] for f in Flag},
+            "recording": self.recorder.condition() if self.recorder else None,
+        }
+
+    def device_list(self) -> dict[str, Any]:
+        """All devices, for pages."""
+        return {"type": "devices", "devices": [device.described() for device in self.hub.devices.values()]}
+
+    def health(self) -> dict[str, Any]:
+        """How all devices fare."""
+        waits = self.hub.waits
+        now = time.monotonic()
+        return {
+            "type": "health",
+            "time": time.time(),
+            "devices": [device.condition(now) for device in self.hub.devices.values()],
+            "viewers": len(self.viewers),
+            "wait_ms": {"p50": round(1e3 * waits.quantile(0.5), 3), "p99": round(1e3 * waits.quantile(0.99), 3)},
+            "recording": self.recorder.condition() if self.recorder else None,
+        }
+
+    def change(self, kind: str, asked: dict[str, Any]) -> None:
+        """What someone who may write asks for: ``methods`` or ``reset_heading``. Raises :class:`PoiseError`."""
+        device = self.hub.find(str(asked.get("device")))
+        if kind == "methods":
+            self.hub.set_methods(device, choices(asked.get("methods")))
+        else:
+            forward = asked.get("forward", "y")
+            if forward not in ("x", "y", "z", "-x", "-y", "-z"):
+                raise HubError(f"forward: expected a body axis such as y or -x, found {forward!r}")
+            self.hub.reset_heading(device, forward)
+
+    async def events(self, after: int) -> AsyncIterator[dict[str, Any]]:
+        """Events numbered above *after*, those of the past first."""
+        queue: asyncio.Queue[dict[str, Any]] = asyncio.Queue(1000)
+        self.listeners.add(queue)
+        try:
+            for event in [each for each in self.hub.events if each["number"] > after]:
+                yield event
+            while True:
+                yield await queue.get()
+        finally:
+            self.listeners.discard(queue)
+
+
+class _listening:
+    """The listening sockets of *options*, closed at the end. Raises :class:`ServerError` where they cannot be had."""
+
+    def __init__(self, options: Options) -> None:
+        self._options = options
+
+    def __enter__(self) -> list[socket.socket]:
+        host, port = self._options.host, self._options.port
+        try:
+            family, _, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[
+                0
+            ]
+        except (socket.gaierror, OverflowError) as problem:
+            raise ServerError(f"--host {host}: no such address ({problem})") from None
+        self._socket = socket.socket(family, socket.SOCK_STREAM)
+        self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            self._socket.bind(address)
+        except OSError as problem:
+            self._socket.close()
+            reason = "another program listens there; give another --port" if problem.errno in (48, 98) else problem
+            raise ServerError(f"cannot listen on {host} port {port}: {reason}") from None
+        self._socket.listen(_BACKLOG)
+        self._options.port = self._socket.getsockname()[1]
+        return [self._socket]
+
+    def __exit__(self, *_: object) -> None:
+        self._socket.close()
