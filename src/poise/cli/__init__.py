@@ -16,6 +16,7 @@ from poise.cli.evaluate import evaluate
 from poise.cli.live import live
 from poise.cli.methods import methods
 from poise.cli.plot import plot
+from poise.cli.recover import recover
 from poise.cli.sniff import sniff
 
 app = App(
@@ -38,6 +39,7 @@ app.command(plot)
 app.command(doctor)
 app.command(sniff)
 app.command(live)
+app.command(recover)
 app.command(methods)
 app.command(demo)
 

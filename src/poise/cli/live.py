@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
@@ -25,6 +26,7 @@ def live(
     port: int = 8760,
     token: Annotated[tuple[str, ...], Parameter(negative="")] = (),
     allow_host: Annotated[tuple[str, ...], Parameter(negative="")] = (),
+    record: Path | None = None,
     max_rate: float = 5000.0,
     reading: Reading | None = None,
 ) -> int:
@@ -58,11 +60,16 @@ def live(
         everything. Repeat for more. The environment's POISE_TOKEN counts, too, and is not seen in a list of processes.
     allow_host
         One more name that this machine goes by.
+    record
+        A folder to keep samples and attitudes in, as Parquet files, one a device and one a method of it. A device is
+        told what is on the disk. After a crash the same command goes on where it was; `poise recover` just saves what is there.
     max_rate
         Samples a second above which a device is cut off.
     """
     try:
-        server = _server(sources or [], method, set_, (host, port, token, allow_host), max_rate, reading or Reading())
+        server = _server(
+            sources or [], method, set_, (host, port, token, allow_host), record, max_rate, reading or Reading()
+        )
     except UsageError as error:
         show.problem(error)
         return 2
@@ -80,7 +87,13 @@ def live(
 
 
 def _server(
-    words: list[str], names: tuple[str, ...], settings: tuple[str, ...], where: Any, max_rate: float, reading: Reading
+    words: list[str],
+    names: tuple[str, ...],
+    settings: tuple[str, ...],
+    where: Any,
+    record: Path | None,
+    max_rate: float,
+    reading: Reading,
 ) -> Server:
     from poise.live.serving import check_installed
 
@@ -97,7 +110,13 @@ def _server(
     try:
         options = _options(*where)
         found = [source(word, reading.read) for word in words]
-        return Server(hub, [each for each in found if each is not None], options)
+        recorder = None
+        if record is not None:
+            from poise.live.recorder import Recorder
+            from poise.live.session import Session
+
+            recorder = Recorder(Session.below(record))
+        return Server(hub, [each for each in found if each is not None], options, recorder)
     except (AccessError, DeviceError) as error:
         usage(str(error))
 

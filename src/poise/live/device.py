@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from poise.data.attitude import Attitude
 from poise.data.recording import check_unit_of_time
 from poise.estimators.engine import Stream
 from poise.live import frames
@@ -26,8 +27,10 @@ _WAITING = 100_000  # samples of one device that may wait for a method to be com
 class Running:
     """A method at work for a device."""
 
-    def __init__(self, choice: Choice, stream: Stream, number: int, slot: int) -> None:
+    def __init__(self, choice: Choice, stream: Stream, number: int, slot: int, start: Attitude | None = None) -> None:
         self.choice, self.stream, self.number, self.slot = choice, stream, number, slot
+        self.start = start
+        """one row: the attitude that it was started at, if any"""
         self.invalid = 0
         """rows so far that were not to be acted on"""
 
@@ -89,6 +92,9 @@ class Device:
         self.connected = 0
         """how many connections it has now"""
         self.tip = frames.NOT_MONITORED
+        self.to_restore: Any = None
+        """a checkpoint and the samples since, of a recording that goes on"""
+        self._ready: deque[Taken] = deque()  # samples before a gap in their numbers
         self._frames: list[bytes] = []  # payloads of 80 bytes a sample
         self._parts: list[Floats] = []
         self._waiting_samples = 0
@@ -151,6 +157,8 @@ class Device:
         """How many of *count* samples from *sequence* on are known already; a gap before them counts as lost."""
         if sequence in (frames.UNNUMBERED, self.next):
             return 0
+        if sequence > self.next or self.next - sequence > _FAR_BACK + count:
+            self._set_apart()
         if sequence > self.next:
             if self.health.samples or self.next:
                 self.health.lost += sequence - self.next
@@ -168,8 +176,26 @@ class Device:
         self._frames.clear()
         return frames.widened(np.frombuffer(data, "<f8").reshape(-1, 10))
 
+    def _set_apart(self) -> None:
+        """What waits is numbered without a gap: what comes now is for the next tick."""
+        if self._frames or self._parts:
+            self._ready.append(self._take())
+
+    @property
+    def done(self) -> int:
+        """The number of the next sample to be run."""
+        return self._ready[0].sequence if self._ready else self.next - self._waiting_samples
+
     def take(self) -> Taken:
-        """All samples that wait."""
+        """The samples that wait, up to a gap in their numbers."""
+        if not self._ready:
+            return self._take()
+        found = self._ready.popleft()
+        if self._ready or self._frames or self._parts:
+            self._all_waiting[self] = None
+        return found
+
+    def _take(self) -> Taken:
         if self._parts:
             parts, self._parts = self._parts, []
             if self._frames:

@@ -9,11 +9,13 @@ from typing import Any
 
 import numpy as np
 
+from poise.data.attitude import Attitude
 from poise.data.flags import INVALID
 from poise.errors import PoiseError
+from poise.estimators.engine import Stream
 from poise.live.batch import Batch, Newest, Span
 from poise.live.device import Device, Running
-from poise.live.methods import Choice, warmed
+from poise.live.methods import Choice, startable, warmed
 from poise.live.waits import Waits
 
 _EVENTS = 1000
@@ -43,8 +45,10 @@ class Hub:
         self.on_event: list[Callable[[dict[str, Any]], None]] = []
         self.on_change: list[Callable[[], None]] = []
         """called when a device or its methods changed"""
-        self.on_reset: list[Callable[[Device], None]] = []
+        self.on_switch: list[Callable[[Device], None]] = []
+        """called between two samples of a device when what it runs, or its heading, was changed"""
         self._waiting: dict[Device, None] = {}
+        self._to_restore: deque[Device] = deque()
         self._event_number = 0
         self._last_tick = 0.0
         self.waits = Waits()
@@ -63,6 +67,26 @@ class Hub:
             self.set_methods(found, self.methods)
             self.event("device", found, f"device {name} from {source or 'somewhere'}")
         return found
+
+    def restored(self, name: str) -> Device:
+        """The device *name* of a recording that goes on; it runs nothing until :meth:`restore`."""
+        found = self.devices[name] = Device(name, len(self.devices), "recording", self._waiting)
+        self._to_restore.append(found)
+        return found
+
+    def next_to_restore(self) -> Device | None:
+        """One of the devices that wait for :func:`poise.live.session.rebuilt` and :meth:`restore`; None: no more."""
+        return self._to_restore.popleft() if self._to_restore else None
+
+    def restore(self, device: Device, rebuilt: list[tuple[Choice, Attitude | None, Stream]]) -> None:
+        """*device* goes on with the streams it had; where there are none, it begins with the usual methods."""
+        device.to_restore = None
+        for number, (choice, start, stream) in enumerate(rebuilt):
+            slot = self.newest.slot(device.number, number)
+            device.runs.append(Running(choice, stream, number, slot, start))
+        if not rebuilt:
+            self.set_methods(device, self.methods)
+        self._changed()
 
     def find(self, name: str) -> Device:
         """The device *name*; raises :class:`HubError` where there is none."""
@@ -97,18 +121,21 @@ class Hub:
             number = next(n for n in range(256) if n not in taken)
             taken.add(number)
             slot = self.newest.slot(device.number, number)
-            runs.append(Running(each, each.stream(latest), number, slot))
+            start = latest if latest is not None and startable(latest) else None
+            runs.append(Running(each, each.stream(start), number, slot, start))
         for run in device.runs:
             if run not in runs:
                 self.newest.drop(run.slot)
         device.runs, device.wanted = runs, ()
+        for told in self.on_switch:
+            told(device)
         self._changed()
 
     def reset_heading(self, device: Device, forward: str = "y") -> None:
         """The direction that body axis *forward* of *device* points to now is north from now on, for all its methods."""
         for run in device.runs:
             run.stream.reset_heading(forward)
-        for told in self.on_reset:
+        for told in self.on_switch:
             told(device)
         self.event("heading", device, f"heading of {device.name} set: {forward} points north")
 

@@ -43,17 +43,20 @@ class Choice(NamedTuple):
         return prepared(METHODS[self.name](**json.loads(self.settings)))
 
     def stream(self, latest: Attitude | None = None) -> Stream:
-        """A stream of it, which starts at the attitude and bias of *latest*, where that is an attitude to be acted on."""
+        """A stream of it, which starts at the attitude and bias of *latest*, if given."""
         method = METHODS[self.name](**json.loads(self.settings))
-        if latest is None or not latest.valid[-1] or not np.isfinite(latest.bias[-1]).all():
-            return Stream(method)
-        return Stream(method, latest[-1:], bias=latest.bias[-1])
+        return Stream(method) if latest is None else Stream(method, latest[-1:], bias=latest.bias[-1])
 
     def warm(self) -> None:
         """Loads, or the first time compiles, the method; seconds, so not in the thread that serves."""
         for start in (None, [1.0, 0.0, 0.0, 0.0]):
             Stream(self.method(), start).update(Packet(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 9.8), (0.0, 20.0, -40.0)))
         _WARM.add(self.name)
+
+
+def startable(latest: Attitude) -> bool:
+    """Whether a stream can start at *latest*: it is to be acted on, and its bias is known."""
+    return bool(latest.valid[-1] and np.isfinite(latest.bias[-1]).all())
 
 
 def warmed(choice: Choice) -> bool:

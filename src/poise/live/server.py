@@ -11,7 +11,7 @@ from collections.abc import AsyncIterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from poise.data.flags import SENTENCES, Flag
 from poise.errors import PoiseError
@@ -19,12 +19,14 @@ from poise.live import frames, http
 from poise.live.access import Access, Gate
 from poise.live.hub import Hub, HubError
 from poise.live.methods import Choice, described
+from poise.live.session import rebuilt
 from poise.live.sockets import DeviceSocket, Viewer, choices
 from poise.version import __version__
 
 if TYPE_CHECKING:
     from poise.live.batch import Batch
     from poise.live.devices import Source
+    from poise.live.recorder import Recorder
 
 DASHBOARD = Path(__file__).parent / "dashboard"
 _HEALTH_EVERY = 1.0  # s
@@ -35,22 +37,6 @@ _BACKLOG = 8192
 
 class ServerError(PoiseError):
     """Why the server cannot start."""
-
-
-class Recorder(Protocol):
-    """Whatever keeps what comes and goes."""
-
-    def open(self, hub: Hub) -> None:
-        """From now on keeps what *hub* takes; devices go on where they were when it was closed or killed."""
-
-    def close(self) -> None:
-        """Everything is on the disk when it returns."""
-
-    def condition(self) -> dict[str, Any]:
-        """``reason`` why nothing is written, or None; ``waiting`` and ``lost`` samples; ``text`` for people."""
-
-    def news(self) -> tuple[dict[str, Any] | None, dict[str, int]] | None:
-        """The condition where it changed, and for each device the number below which all is durable; None for no news."""
 
 
 @dataclass
@@ -100,7 +86,7 @@ class Server:
                     loop.add_signal_handler(number, self.stopping.set)
             if self.recorder is not None:
                 self.recorder.open(self.hub)
-            for work in (self._ticking(), self._warm_all(), *map(self._feed, self.sources)):
+            for work in (self._ticking(), self._begin(), *map(self._feed, self.sources)):
                 self._spawn(work)
             try:
                 await serve(self, sockets, ready)
@@ -136,9 +122,16 @@ class Server:
                 self._say(self.health())
             await asyncio.sleep(min(max(4.0 * self.hub.tick_cost, _QUICKEST), _SLOWEST))
 
-    async def _warm_all(self) -> None:
+    async def _begin(self) -> None:
         for choice in self.hub.methods:
             await self._warm(choice)
+        while (device := self.hub.next_to_restore()) is not None:
+            try:
+                streams = await asyncio.to_thread(rebuilt, device)
+            except PoiseError as problem:
+                self.hub.event("refused", device, f"{device.name} begins anew: {problem}")
+                streams = []
+            self.hub.restore(device, streams)
 
     def _warm_wanted(self) -> None:
         for device in self.hub.devices.values():
@@ -209,7 +202,7 @@ class Server:
             if condition is not None:
                 self._spawn(each.tell(type="recording", **condition))
             if number is not None:
-                self._spawn(each.tell(type="ack", next=number))
+                self._spawn(each.tell(type="ack", next=number, lost=self.recorder.lost_of(each.device.name)))
         if condition is not None:
             self.hub.event("recording", None, condition["text"])
 

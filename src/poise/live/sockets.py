@@ -85,7 +85,9 @@ class DeviceSocket:
     async def _tell_recording(self) -> None:
         recorder = self._server.recorder
         if recorder is not None:
+            name = self.device.name
             await self.tell(type="recording", **recorder.condition())
+            await self.tell(type="ack", next=recorder.durable(name), lost=recorder.lost_of(name))
 
     async def tell(self, **message: Any) -> None:
         async with self._lock:
