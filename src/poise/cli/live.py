@@ -27,6 +27,7 @@ def live(
     token: Annotated[tuple[str, ...], Parameter(negative="")] = (),
     allow_host: Annotated[tuple[str, ...], Parameter(negative="")] = (),
     record: Path | None = None,
+    describe: Path | None = None,
     max_rate: float = 5000.0,
     reading: Reading | None = None,
 ) -> int:
@@ -36,6 +37,10 @@ def live(
 
     - `ws`: devices connect by themselves and push, to `ws://HOST:PORT/ws/device/NAME`; always on, whatever else is given
     - `replay:FILE`: a recording as a device, `replay:FILE@10` ten times as fast, `@max` as fast as it can be taken
+
+    - `udp::9000`, `udp:127.0.0.1:9000`: datagrams with samples, on all addresses of this machine or one
+    - `serial:/dev/ttyUSB0`: text lines or binary frames; unplugged and plugged in again it goes on
+    - `mqtt://HOST/TOPIC`: messages at a broker, by default of `poise/+`; the last level names the device
 
     Attitudes come out over WebSocket and HTTP; docs/live.md has the protocol, a client of ten lines and a `curl` example.
     Only this machine can connect unless --host says otherwise, and then a --token is needed.
@@ -63,12 +68,20 @@ def live(
     record
         A folder to keep samples and attitudes in, as Parquet files, one a device and one a method of it. A device is
         told what is on the disk. After a crash the same command goes on where it was; `poise recover` just saves what is there.
+    describe
+        A TOML file that says what text lines or binary frames from a serial port, UDP or MQTT mean; see docs/live.md.
     max_rate
         Samples a second above which a device is cut off.
     """
     try:
         server = _server(
-            sources or [], method, set_, (host, port, token, allow_host), record, max_rate, reading or Reading()
+            sources or [],
+            method,
+            set_,
+            (host, port, token, allow_host),
+            (record, describe),
+            max_rate,
+            reading or Reading(),
         )
     except UsageError as error:
         show.problem(error)
@@ -91,7 +104,7 @@ def _server(
     names: tuple[str, ...],
     settings: tuple[str, ...],
     where: Any,
-    record: Path | None,
+    files: tuple[Path | None, Path | None],
     max_rate: float,
     reading: Reading,
 ) -> Server:
@@ -99,17 +112,20 @@ def _server(
 
     check_installed()
     from poise.live.access import AccessError
+    from poise.live.described import Description
     from poise.live.devices import DeviceError
     from poise.live.hub import Hub
     from poise.live.server import Server
     from poise.live.sources import source
 
+    record, describe = files
     if not 1.0 <= max_rate <= 1e6:
         usage(f"--max-rate {max_rate}: expected samples a second, 1 to 1e6")
     hub = Hub(method_choices(names, settings), max_rate)
     try:
         options = _options(*where)
-        found = [source(word, reading.read) for word in words]
+        description = Description.read(describe) if describe is not None else None
+        found = [source(word, reading.read, description) for word in words]
         recorder = None
         if record is not None:
             from poise.live.recorder import Recorder

@@ -12,14 +12,16 @@ from poise.live.devices import DeviceError, Source
 
 if TYPE_CHECKING:
     from poise.data.recording import Recording
+    from poise.live.described import Description
 
-WORDS = "replay:FILE[@SPEED], ws"
+WORDS = "ws, replay:FILE[@SPEED], udp:[HOST]:PORT, serial:PORT, mqtt://HOST[:PORT]/[TOPIC]"
 
 
-def source(word: str, read: Callable[[Path], Recording]) -> Source | None:
+def source(word: str, read: Callable[[Path], Recording], description: Description | None = None) -> Source | None:
     """The source that *word* names; None for ``ws``, devices that connect by themselves.
 
-    Raises :class:`DeviceError` for a word that names none.
+    *description* is what the bytes of a serial port, datagrams and messages mean. Raises :class:`DeviceError` for a word that
+    names none.
     """
     kind, _, rest = word.partition(":")
     if word == "ws":
@@ -29,6 +31,21 @@ def source(word: str, read: Callable[[Path], Recording]) -> Source | None:
 
         file, speed = _speed(rest)
         return Replay(read(Path(file)), speed=speed)
+    if kind == "udp":
+        from poise.live.udp import Udp
+
+        host, _, port = rest.rpartition(":")
+        if not port.isdecimal() or not 0 <= int(port) <= 65535:
+            raise DeviceError(f"{word}: expected udp:[HOST]:PORT, udp::9000 for all addresses of this machine")
+        return Udp(host.strip("[]"), int(port), description)
+    if kind == "serial" and rest:
+        from poise.live.serial_port import SerialPort
+
+        return SerialPort(rest, description)
+    if kind in ("mqtt", "mqtts"):
+        from poise.live.mqtt import Mqtt
+
+        return Mqtt(word, description)
     raise DeviceError(f"{word!r} is no source; expected one of {WORDS}")
 
 
