@@ -47,6 +47,8 @@ class Hub:
         """called when a device or its methods changed"""
         self.on_switch: list[Callable[[Device], None]] = []
         """called between two samples of a device when what it runs, or its heading, was changed"""
+        self.wanting: set[Device] = set()
+        """devices whose methods are to be loaded"""
         self._waiting: dict[Device, None] = {}
         self._to_restore: deque[Device] = deque()
         self._event_number = 0
@@ -102,6 +104,7 @@ class Hub:
         """
         kept = {run.choice: run for run in device.runs}
         device.wanted = tuple(kept.get(choice) or choice for choice in methods)
+        self.wanting.add(device)
         if all(isinstance(each, Running) or warmed(each) for each in device.wanted):
             self.switch(device)
 
@@ -127,6 +130,7 @@ class Hub:
             if run not in runs:
                 self.newest.drop(run.slot)
         device.runs, device.wanted = runs, ()
+        self.wanting.discard(device)
         for told in self.on_switch:
             told(device)
         self._changed()

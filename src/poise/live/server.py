@@ -7,9 +7,10 @@ import json
 import signal
 import socket
 import time
-from collections.abc import AsyncIterator, Sequence
+from collections.abc import AsyncIterator, Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,6 +26,7 @@ from poise.version import __version__
 
 if TYPE_CHECKING:
     from poise.live.batch import Batch
+    from poise.live.device import Device
     from poise.live.devices import Source
     from poise.live.recorder import Recorder
 
@@ -33,6 +35,11 @@ _HEALTH_EVERY = 1.0  # s
 _FLAGS_EVERY = 0.25  # s that a flag stays in `flags_since`, so that every viewer sees it
 _QUICKEST, _SLOWEST = 0.004, 0.02  # s between ticks: as often as a quarter of the time allows
 _BACKLOG = 8192
+_HEAD_START = (
+    2.0  # s to load the methods before the first device is served: beside a busy loop it takes several times as long
+)
+_LIST_EVERY = 0.2  # s between lists of devices
+_SLICE = 100  # devices in one message on health: thousands would hold up a tick
 
 
 class ServerError(PoiseError):
@@ -86,7 +93,9 @@ class Server:
                     loop.add_signal_handler(number, self.stopping.set)
             if self.recorder is not None:
                 self.recorder.open(self.hub)
-            for work in (self._ticking(), self._begin(), *map(self._feed, self.sources)):
+            beginning = self._spawn(self._begin())
+            await asyncio.wait((beginning,), timeout=_HEAD_START)
+            for work in (self._ticking(), *map(self._feed, self.sources)):
                 self._spawn(work)
             try:
                 await serve(self, sockets, ready)
@@ -98,28 +107,33 @@ class Server:
                 if self.recorder is not None:
                     await asyncio.to_thread(self.recorder.close)
 
-    def _spawn(self, work: Any) -> None:
-        task = asyncio.get_running_loop().create_task(work)
+    def _spawn(self, work: Any) -> asyncio.Task[None]:
+        task: asyncio.Task[None] = asyncio.get_running_loop().create_task(work)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
+        return task
 
     async def _ticking(self) -> None:
-        due, forget = 0.0, 0.0
+        due, forget, listed = 0.0, 0.0, 0.0
+        slices: list[list[Device]] = []
         while True:
             self.hub.tick()
             now = time.monotonic()
-            self._warm_wanted()
+            if self.hub.wanting:
+                self._warm_wanted()
             if self.recorder is not None:
                 self._acknowledge()
-            if self._changed:
-                self._changed = False
-                self._say(self.device_list())
+            if self._changed and now > listed:
+                self._changed, listed = False, now + _LIST_EVERY
+                self._say(self.device_list)
             if now > forget:
                 forget = now + _FLAGS_EVERY
                 self.hub.newest.forget_flags()
             if now > due:
-                due = now + _HEALTH_EVERY
-                self._say(self.health())
+                due, devices = now + _HEALTH_EVERY, list(self.hub.devices.values())
+                slices = [devices[k : k + _SLICE] for k in range(0, max(len(devices), 1), _SLICE)]
+            if slices:
+                self._say(partial(self.health, slices.pop()))
             await asyncio.sleep(min(max(4.0 * self.hub.tick_cost, _QUICKEST), _SLOWEST))
 
     async def _begin(self) -> None:
@@ -134,18 +148,18 @@ class Server:
             self.hub.restore(device, streams)
 
     def _warm_wanted(self) -> None:
-        for device in self.hub.devices.values():
+        for device in self.hub.wanting:
             for each in device.wanted:
                 if isinstance(each, Choice) and each not in self._warming:
+                    self._warming.add(each)
                     self._spawn(self._warm(each))
 
     async def _warm(self, choice: Choice) -> None:
         self._warming.add(choice)
         try:
             await asyncio.to_thread(choice.warm)
-            for device in self.hub.devices.values():
-                if device.wanted:
-                    self.hub.set_methods(device, self.hub.wanted(device))
+            for device in list(self.hub.wanting):
+                self.hub.set_methods(device, self.hub.wanted(device))
         finally:
             self._warming.discard(choice)
 
@@ -169,10 +183,11 @@ class Server:
         self._frame += 1
         return self._frame
 
-    def _say(self, message: dict[str, Any]) -> None:
-        text = json.dumps(message)
-        for viewer in self.viewers:
-            viewer.say(text)
+    def _say(self, message: Callable[[], dict[str, Any]]) -> None:
+        if self.viewers:
+            text = json.dumps(message())
+            for viewer in self.viewers:
+                viewer.say(text)
 
     def _to_viewers(self, batch: Batch) -> None:
         every = [viewer for viewer in self.viewers if viewer.wants_every]
@@ -182,7 +197,7 @@ class Server:
                 viewer.put(batch, frame)
 
     def _tell_event(self, event: dict[str, Any]) -> None:
-        self._say(event)
+        self._say(lambda: event)
         for queue in self.listeners:
             if queue.full():
                 queue.get_nowait()
@@ -223,14 +238,14 @@ class Server:
         """All devices, for pages."""
         return {"type": "devices", "devices": [device.described() for device in self.hub.devices.values()]}
 
-    def health(self) -> dict[str, Any]:
-        """How all devices fare."""
+    def health(self, devices: Iterable[Device] | None = None) -> dict[str, Any]:
+        """How *devices* fare, all unless told."""
         waits = self.hub.waits
         now = time.monotonic()
         return {
             "type": "health",
             "time": time.time(),
-            "devices": [device.condition(now) for device in self.hub.devices.values()],
+            "devices": [device.condition(now) for device in devices or self.hub.devices.values()],
             "viewers": len(self.viewers),
             "wait_ms": {"p50": round(1e3 * waits.quantile(0.5), 3), "p99": round(1e3 * waits.quantile(0.99), 3)},
             "recording": self.recorder.condition() if self.recorder else None,
