@@ -94,6 +94,8 @@ class Device(asyncio.Protocol):
     def heard(self, kind: int, payload: bytes) -> None:
         if kind == 0x89:
             self.transport.write(masked(payload, 0x8A))
+        elif kind == 0x88:
+            self.told = time.monotonic()
         elif kind == 0x81:
             self.texts += 1
             if payload.startswith(b'{"type": "ack"'):
@@ -274,6 +276,7 @@ async def flood(seconds: float) -> dict[str, Any]:
         taken = sum(d["samples"] for d in others) - 2000
         return {
             "idle": sum(not each.closed for each in idle),
+            "offender_cut_off_after_s": round(offender.told - began, 2),
             "offender_closed_after_s": round(closed[0], 2),
             "others_lost": sent - taken,
             "p99_ms": said(viewer, sent)["p99_ms"],

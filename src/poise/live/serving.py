@@ -15,18 +15,27 @@ if TYPE_CHECKING:
     from poise.live.server import Server
 
 _MOST_BYTES = 1 << 20  # of a message that comes in
+_CLOSING = 0.5  # s
 _MOST_CONNECTIONS = 20_000
 
 
 async def serve(server: Server, sockets: list[socket.socket], ready: asyncio.Event | None) -> None:
     """Serves *server*'s application on *sockets* until its ``stopping`` is set."""
     import uvicorn
+    from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
+
+    class Protocol(WebSocketsSansIOProtocol):
+        """Whoever is cut off and does not answer is not listened to for 10 s more."""
+
+        def __init__(self, *arguments: Any, **named: Any) -> None:
+            super().__init__(*arguments, **named)
+            self.close_timeout = _CLOSING
 
     _allow_connections()
     certificate = server.options.certificate
     config = uvicorn.Config(
         server.app,
-        ws="websockets-sansio",
+        ws=Protocol,
         ws_max_size=_MOST_BYTES,
         ws_per_message_deflate=False,  # binary numbers do not shrink, and a megabyte of nothing shrinks too well
         ws_ping_interval=20.0,
