@@ -403,7 +403,7 @@ SCENARIOS: dict[str, Callable[[float], Any]] = {
     "load-recorded": recorded,
     "stalled": stalled,
     "flood": flood,
-    "malformed": lambda s: malformed(int(100_000 * s)),
+    "malformed": lambda s: malformed(int(10_000 * s)),
     "killed": lambda s: killed(s, 10),
 }
 
