@@ -149,6 +149,7 @@ def test_brackets_are_part_of_a_name(name: str, folder: Path, capsys: pytest.Cap
     assert name in told and out in told
     assert run(["evaluate", name, "-m", "gated"]) == 0
     assert name in capsys.readouterr().out
+    (folder / "[").mkdir()
     assert run(["estimate", name, "-o", "[/b].csv", "-m", "gated"]) == 0
     assert "[/b].csv" in capsys.readouterr().out
     assert run(["plot", name, "-m", "gated"]) == 0
@@ -225,11 +226,28 @@ def test_bad_files_are_told_and_the_good_ones_done(folder: Path, capsys: pytest.
     (folder / "empty.csv").touch()
     (folder / "text.csv").write_text("hello\nworld\n")
     (folder / "picture.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(100))
+    (folder / "out").mkdir()
     assert run(["estimate", "missing.csv", "empty.csv", "text.csv", "picture.png", "made.csv", "-o", "out"]) == 1
     captured = capsys.readouterr()
     problems = [line for line in captured.err.splitlines() if line.startswith("poise:")]
     assert len(problems) == 4
     assert [path.name for path in (folder / "out").iterdir()] == ["made.attitude.parquet"]
+
+
+@pytest.mark.parametrize("limit", ["whole=1GiB", "whole=0"])  # in memory, and in chunks
+def test_a_file_without_one_usable_sample_is_told(limit: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    made = poise.read("made.csv")
+    poise.write(made.with_samples(acc=np.full_like(made.acc, np.nan)), folder / "dead.csv")
+    arguments = ["estimate", "dead.csv", "made.csv", "-m", "two-stage", "--limit", limit, "--json"]
+    assert run(arguments) == 1
+    out, err = capsys.readouterr()
+    (line,) = err.strip().splitlines()
+    assert "dead.csv: no row is valid: no attitude yet" in line and "dead.attitude.parquet was written" in line
+    found = json.loads(out)
+    assert [result["file"] for result in found["results"]] == ["dead.csv", "made.csv"]
+    assert [error["file"] for error in found["errors"]] == ["dead.csv"]
+    attitude = read_attitude(folder / "dead.attitude.parquet")  # nothing is lost: the flags say why, row by row
+    assert len(attitude) == len(made) and not attitude.valid.any() and attitude.reasons()
 
 
 def test_messages_count_and_name_once(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -247,6 +265,31 @@ def test_messages_count_and_name_once(folder: Path, capsys: pytest.CaptureFixtur
 def test_an_unwritable_place_is_told(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (folder / "taken").write_text("a file, not a folder")
     refused(capsys, "estimate", "made.csv", "-o", "taken/out.parquet", code=1, says="taken")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["estimate", "made.csv", "-o", "nowhere"],
+        ["estimate", "made.csv", "-o", "nowhere/a.parquet"],
+        ["estimate", "made.csv", "--limit", "whole=0", "-o", "nowhere/a.parquet"],
+        ["estimate", "made.csv", "--plot", "nowhere/a.png"],
+        ["estimate", "made.csv", "--learned-over-time", "nowhere/a.csv"],
+        ["estimate", "made.csv", "--save-learned", "nowhere/a.json"],
+        ["evaluate", "made.csv", "--plot", "nowhere/a.png"],
+        ["plot", "made.csv", "-o", "nowhere/a.png"],
+        ["compare", "made.csv", "--plot", "nowhere"],
+        ["compare", "made.csv", "--report", "nowhere/a.html"],
+        ["doctor", "made.csv", "--sheet", "nowhere/a.png"],
+        ["doctor", "made.csv", "--save-profile", "nowhere/a.toml"],
+    ],
+)
+def test_a_folder_that_is_not_there_is_told_before_any_work(
+    arguments: list[str], folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("poise.cli.show.each", lambda *_: pytest.fail("worked for nothing"))
+    refused(capsys, *arguments, code=1, says=r"nowhere\S*: folder nowhere does not exist; make it")
+    assert [path.name for path in folder.iterdir()] == ["made.csv"]
 
 
 def test_no_reference_is_told(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

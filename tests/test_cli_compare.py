@@ -29,7 +29,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def test_compare_json_with_good_and_bad_files(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     arguments = ["made.csv", "blind.csv", "empty.csv", "nowhere.csv", "-m", "two-stage", "-m", "tilt", "--json"]
-    assert run(["compare", *arguments, "--report", "out/all.html"]) == 1
+    assert run(["compare", *arguments, "--report", "all.html"]) == 1
     captured = capsys.readouterr()
     document = json.loads(captured.out)
     assert [result["against"] for result in document["results"]] == ["reference", "consensus"]
@@ -38,7 +38,7 @@ def test_compare_json_with_good_and_bad_files(folder: Path, capsys: pytest.Captu
     assert {row["name"] for row in document["mean_rms_deg"]} == {"two-stage", "tilt"}
     expected = poise.evaluate(poise.estimate(poise.TwoStage(), poise.read("made.csv")), poise.read("made.csv"))
     assert document["results"][0]["estimators"][0]["error_deg"]["total"] == expected.table()["total"]
-    page = (folder / "out" / "all.html").read_text(encoding="utf-8")
+    page = (folder / "all.html").read_text(encoding="utf-8")
     assert "nowhere.csv" in page and "poise compare made.csv blind.csv" in page
 
 
@@ -93,6 +93,7 @@ def test_usage_is_code_2_and_one_line(
 def test_plot_draws_recordings_and_attitudes(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["estimate", "made.csv", "-o", "a.parquet"]) == 0
     capsys.readouterr()
+    (folder / "pictures").mkdir()
     assert run(["plot", "made.csv", "blind.csv", "a.parquet", "empty.csv", "-o", "pictures", "--json"]) == 1
     document = json.loads(capsys.readouterr().out)
     assert [result["drawn"].split()[0] for result in document["results"]] == ["sensors", "sensors", "attitude"]
@@ -113,8 +114,8 @@ def test_a_place_that_cannot_be_written_is_told_before_any_work(
     assert run(["compare", "made.csv", "-m", "gated", option.format("made.csv")]) == 1
     assert len(capsys.readouterr().err.strip().splitlines()) == 1
     monkeypatch.setattr("tempfile.TemporaryFile", _refuse)
-    assert run(["compare", "made.csv", "-m", "gated", option.format("new")]) == 1
-    assert "No space left" in capsys.readouterr().err and not (folder / "new").exists()
+    assert run(["compare", "made.csv", "-m", "gated", option.format(".")]) == 1
+    assert "No space left" in capsys.readouterr().err and not [*folder.glob("a.*")]
 
 
 def test_where_every_estimator_fails_the_exit_code_says_so(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -61,6 +61,20 @@ def test_a_right_recording_is_fine(folder: Path, capsys: pytest.CaptureFixture[s
     assert all(f["severity"] != "sure" for f in result["findings"])
 
 
+def test_no_profile_where_nothing_is_to_be_repaired(
+    folder: Path, capsys: pytest.CaptureFixture[str], right: poise.Recording
+) -> None:
+    assert run(["doctor", "right.csv", "--save-profile", "right.toml"]) == 0
+    assert "right.csv: nothing to repair: no profile written" in capsys.readouterr().err
+    poise.write(right.with_samples(acc=0.01 * right.acc + 0.1), folder / "free.csv")
+    assert run(["doctor", "free.csv", "--save-profile", "free.toml"]) == 1
+    assert "free.csv: nothing of it is repaired for sure: no profile written" in capsys.readouterr().err
+    assert (
+        run(["doctor", "right.csv", "--delay", "mag=0.01", "--save-profile", "told.toml"]) == 0
+    )  # what was told is kept
+    assert [path.name for path in folder.glob("*.toml")] == ["told.toml"]
+
+
 def test_what_is_surely_wrong_is_refused_with_its_fix(
     folder: Path, capsys: pytest.CaptureFixture[str], right: poise.Recording
 ) -> None:
@@ -81,6 +95,19 @@ def test_options_add_up(folder: Path, capsys: pytest.CaptureFixture[str], right:
     (result,) = json.loads(capsys.readouterr().out)["results"]
     assert run(["doctor", *shlex.split(result["command"])[2:]]) == 0
     assert "acc=x y -z" in result["command"] and "all=y z x" in result["command"]
+
+
+def test_a_value_may_begin_with_a_hyphen(
+    folder: Path, capsys: pytest.CaptureFixture[str], right: poise.Recording
+) -> None:
+    """As an argument of its own: the one after the option is its value, whatever it begins with."""
+    assert run(["doctor", "right.csv", "--remap", "-x -y z"]) == 0
+    assert run(["doctor", "right.csv", "--remap=-x -y z"]) == 0
+    np.savetxt(folder / "bare.csv", np.column_stack([right.time, right.time, right.gyr, right.acc]), delimiter=",")
+    assert run(["doctor", "bare.csv", "--columns", "-,time,gx,gy,gz,ax,ay,az", "--units", "gyr=rad/s,acc=m/s2"]) == 0
+    where = ["--place", "-33.9,151.2", "--date", "2026-01-01"]
+    assert run(["estimate", "right.csv", "-m", "two-stage", *where, "-o", "south.csv"]) == 0
+    assert "poise:" not in capsys.readouterr().err
 
 
 def test_sheets(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -104,12 +131,14 @@ def test_sheets(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
         (["doctor", "right.csv", "--hemisphere", "east"], 2, "hemisphere"),
         (["estimate", "right.csv", "--remap", "acc=x x z"], 2, "--remap"),
         (["estimate", "right.csv", "--remap", "baro=x y z"], 2, "--remap"),
-        (["estimate", "right.csv", "--remap", "-x y z"], 2, "."),
+        (["estimate", "right.csv", "--remap", "-x y z"], 2, "--remap: axes '-x y z' make a left-handed frame"),
+        (["estimate", "right.csv", "--remap", "--json"], 2, "--remap: axes '--json' not understood"),
         (["estimate", "right.csv", "--delay", "gyr=0.1"], 2, "--delay"),
         (["estimate", "right.csv", "--delay", "mag=late"], 2, "--delay"),
         (["estimate", "right.csv", "--profile", "absent.toml"], 2, "cannot be read"),
         (["estimate", "right.csv", "--profile", "no.csv"], 2, "no TOML"),
-        (["estimate", "right.csv", "--profile", "odd.toml"], 2, "not understood"),
+        (["estimate", "right.csv", "--profile", "odd.toml"], 2, r"no table \[unit\]"),
+        (["estimate", "right.csv", "--units", "gyr=furlong"], 2, "--units: unit 'furlong' of gyr not understood"),
     ],
 )
 def test_mistakes(folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], code: int, says: str) -> None:
@@ -118,6 +147,33 @@ def test_mistakes(folder: Path, capsys: pytest.CaptureFixture[str], arguments: l
     assert run(arguments) == code
     lines = capsys.readouterr().err.strip().splitlines()
     assert len(lines) == 1 and re.search(says, lines[0]), lines
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("[units]\ngyr = 'furlong'", r"\[units\] gyr: unit 'furlong' of gyr not understood; expected one of rad/s"),
+        ("[units]\ngyr = 'deg/s,acc=g'", r"\[units\] gyr: unit 'deg/s,acc=g'"),
+        ("[units]\ngyr = 3", r"\[units\] gyr: expected a text, found 3"),
+        ("[units]\nbaro = 'Pa'", r"\[units\] baro: \[units\] is of time, gyr, acc, mag"),
+        ("[unit]\ngyr = 'deg/s'", r"no table \[unit\] is known"),
+        ("units = 'deg/s'", "units is no table"),
+        ("[remap]\nacc = 'x x z'", r"\[remap\] acc: axes 'x x z' are not a rotation"),
+        ("[remap]\nacc = ''", r"\[remap\] acc: axes ''"),
+        ("[remap]\nall = 'x y -z'", r"\[remap\] all: axes 'x y -z' make a left-handed frame"),
+        ("[delay]\nmag = 5.0", r"\[delay\] mag = 5.0: expected seconds, at most 1"),
+        ("[delay]\nmag = nan", r"\[delay\] mag = nan: expected seconds"),
+        ("[delay]\nmag = true", r"\[delay\] mag: expected seconds, a number"),
+        ("[delay]\ngyr = 0.1", r"\[delay\] gyr: \[delay\] is of acc, mag"),
+    ],
+)
+def test_a_mistake_in_a_profile_is_named_with_file_and_key(
+    folder: Path, capsys: pytest.CaptureFixture[str], text: str, says: str
+) -> None:
+    (folder / "glove.toml").write_text(text)
+    assert run(["estimate", "right.csv", "--profile", "glove.toml"]) == 2
+    (line,) = capsys.readouterr().err.strip().splitlines()
+    assert re.match(f"poise: --profile glove.toml: {says}", line), line
 
 
 def test_a_file_in_chunks_is_refused_and_repaired_alike(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

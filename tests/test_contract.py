@@ -138,8 +138,22 @@ def test_a_saved_stream_belongs_to_its_method_and_parameters(method: Any) -> Non
     for bytes_ in (saved[: len(saved) // 2], b"", b"[]", b"\xff\x00", b'{"poise": "stream"}', nested, flipped):
         with pytest.raises(StateError, match="saved stream"):
             poise.Stream(method).restore(bytes_)
-    with pytest.raises(StateError, match="same method and parameters"):
+    with pytest.raises(StateError, match="same method and parameters") as told:
         other.restore(saved)
+    value = getattr(method, name)
+    assert f": {name} is {value!r}, here {1.5 * value!r}; restore" in str(told.value)  # what differs, and only that
+
+
+def test_a_stream_saved_by_another_method_says_so() -> None:
+    saved = poise.Stream(poise.TwoStage()).save()
+    for other, says in (
+        (poise.Stream(poise.Tilt()), "another method.*here there is no gyr_noise.* more and there was no q_angle"),
+        (poise.Stream(poise.TwoStage(), rest_bias=False), "here there is no .*rest_time"),
+        (poise.Stream(poise.TwoStage(), guard=None), "here there is no .*longest_loss"),
+    ):
+        with pytest.raises(StateError, match=says) as told:
+            other.restore(saved)
+        assert len(str(told.value)) < 400
 
 
 # -- what comes out ---------------------------------------------------------------------------------------------------

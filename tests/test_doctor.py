@@ -10,6 +10,7 @@ import pytest
 import poise
 from data_files import data_path
 from poise import Recording, diagnose
+from poise.data.corrections import Corrections
 from poise.doctor.axes import words
 from poise.doctor.turning import signed_axes
 from poise.errors import RecordingError
@@ -87,10 +88,27 @@ def test_axes_and_units_at_once(turned: Recording) -> None:
     assert same_up_to_a_rotation(found.repair(wrong), turned)
 
 
-def test_two_renamed_sensors_are_wrong_without_a_sure_fix(turned: Recording) -> None:
-    found = diagnose(turned.remap("y -x z", "acc").remap("x z -y", "mag"))
-    assert names(found, "sure") and not found.repairs
-    assert "surely wrong" in found.verdict and "not all of it" in found.verdict
+@pytest.mark.parametrize(
+    "mistake",
+    [
+        {"acc": "y -x z", "mag": "x z -y"},
+        {"acc": "y z x", "mag": "-y x z"},
+        {"acc": "y x z", "mag": "x z y"},
+        {"gyr": "y x z", "mag": "y -x z"},  # a mirror image: the gyroscope's, whatever else
+        {"gyr": "-x y z", "acc": "x z -y"},
+        {"gyr": "y z x", "acc": "-x -y z"},
+    ],
+)
+def test_the_axes_of_two_renamed_sensors_are_named(turned: Recording, mistake: dict[str, str]) -> None:
+    wrong = Corrections(axes=mistake).apply(turned.with_samples(gyr=np.degrees(turned.gyr)))
+    found = diagnose(wrong)
+    assert names(found, "sure") == ["gyr unit", "axes"]
+    axes = found.found("sure")[1]
+    assert not axes.decided and "not all of it" in found.verdict  # no motion tells the sign that force and field share
+    assert "both have the other sign" in axes.sentence
+    fixed = axes.fix.apply(found.repair(wrong))
+    negated = fixed.remap("-x -y -z", "acc").remap("-x -y -z", "mag")
+    assert same_up_to_a_rotation(fixed, turned) or same_up_to_a_rotation(negated, turned)
 
 
 def test_a_rotation_of_all_sensors_is_no_fault(turned: Recording) -> None:

@@ -271,6 +271,7 @@ def test_the_command_writes_bags(
     monkeypatch.chdir(tmp_path)
     save(tmp_path / "in.bag", [*imu(), *mag()])
     assert run(["estimate", "in.bag", "-o", "out.mcap"]) == 0
+    (tmp_path / "out").mkdir()
     assert run(["estimate", "in.bag", "-o", "out", "--format", "ros2"]) == 0
     assert sniff("out.mcap").format == "MCAP file" and sniff("out/in.attitude").format == "ROS 2 bag"
     capsys.readouterr()

@@ -26,14 +26,17 @@ _HOME = {
     "Learned": "poise.data.learned",
     "Learning": "poise.data.learned",
     "METHODS": "poise.estimators",
+    "Monitor": "poise.monitor",
     "Packet": "poise.data.packet",
     "PoiseError": "poise.errors",
     "Recording": "poise.data.recording",
+    "Responses": "poise.responses",
     "RestBias": "poise.estimators.rest_bias",
     "SelfCalibrating": "poise.estimators.self_calibrating.causal",
     "Slewed": "poise.estimators.slewed",
     "Stream": "poise.estimators.engine",
     "Tilt": "poise.estimators.tilt",
+    "TipOver": "poise.monitor",
     "TwoStage": "poise.estimators.two_stage",
     "compare": "poise.comparison",
     "conform": "poise.conformance",
@@ -90,6 +93,9 @@ if TYPE_CHECKING:
     from poise.formats import read_learned as read_learned
     from poise.formats import sniff as sniff
     from poise.formats import write as write
+    from poise.monitor import Monitor as Monitor
+    from poise.monitor import TipOver as TipOver
+    from poise.responses import Responses as Responses
 
 
 def __getattr__(name: str) -> Any:

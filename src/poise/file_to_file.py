@@ -46,6 +46,8 @@ class Written:
     rows: int
     valid: float
     """share of the rows that may be acted on; NaN without rows"""
+    flags: int
+    """every flag that any row has"""
     resumed: int
     """rows that an earlier, interrupted run had written"""
     heading_reference: HeadingReference
@@ -114,7 +116,7 @@ def estimate_file(
         place.finish(head, body.tail(facts))
     rows = run.counts["rows"]
     valid = run.counts["valid"] / rows if rows else float("nan")
-    return Written(target, rows, valid, resumed, final.heading_reference, final.learned)
+    return Written(target, rows, valid, run.counts["flags"], resumed, final.heading_reference, final.learned)
 
 
 @dataclass(frozen=True)
@@ -136,7 +138,7 @@ class _Run:
 
     def __init__(self, chunks: Chunks, stream: Stream, accounts: dict[str, Account]) -> None:
         self.chunks, self.stream, self.accounts = chunks, stream, accounts
-        self.counts = {"rows": 0, "valid": 0, "unknown": 0}
+        self.counts = {"rows": 0, "valid": 0, "unknown": 0, "flags": 0}
 
     def pairs(
         self, shape: _Shape, correct: Callable[[Recording], Recording] | None
@@ -153,6 +155,7 @@ class _Run:
         self.counts["rows"] += len(attitude)
         self.counts["valid"] += int(attitude.valid.sum())
         self.counts["unknown"] += int(np.sum(~writing.has_attitude(attitude)))
+        self.counts["flags"] |= int(np.bitwise_or.reduce(attitude.flags))
         for account in self.accounts.values():
             account.add(recording, attitude)
 

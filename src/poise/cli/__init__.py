@@ -17,7 +17,9 @@ from poise.cli.live import live
 from poise.cli.methods import methods
 from poise.cli.plot import plot
 from poise.cli.recover import recover
+from poise.cli.respond import respond
 from poise.cli.sniff import sniff
+from poise.cli.tipover import tipover
 
 app = App(
     name="poise",
@@ -37,6 +39,8 @@ app.command(compare)
 app.command(conform)
 app.command(plot)
 app.command(doctor)
+app.command(tipover)
+app.command(respond)
 app.command(sniff)
 app.command(live)
 app.command(recover)

@@ -12,7 +12,7 @@ from cyclopts import Parameter
 
 from poise.cli import show
 from poise.cli.options import Reading, UsageError, usage
-from poise.cli.targets import PICTURES, check_room, make_room, targets
+from poise.cli.targets import PICTURES, check_room, distinct, targets
 from poise.errors import FormatError, PoiseError
 
 if TYPE_CHECKING:
@@ -73,12 +73,10 @@ def compare(
         estimators = _chosen(method, with_, limit)
         reading.as_arguments()
         pictures = targets(files, plot, ".comparison.png", PICTURES, "--plot") if plot else {}
-        if not plot:
-            targets(files, None, ".html", (), "--report")  # the same recording twice is a mistake here, too
+        distinct(files)
         if report is not None:
             _check_report(report, [*files, *pictures.values()])
-        for place in (*pictures.values(), *([report] if report is not None else [])):
-            check_room(place)
+            check_room(report)
         done, refused = run(files, estimators, reading, limit, pictures)
     except UsageError as error:
         show.problem(error)
@@ -149,7 +147,6 @@ def troubles(done: Sequence[Compared]) -> list[dict[str, str]]:
 def _draw(comparison: Comparison, picture: Path) -> None:
     from poise.plots import comparison_figure, save_figure
 
-    make_room(picture)
     save_figure(comparison_figure(comparison), picture)
 
 
@@ -157,7 +154,6 @@ def write_report(path: Path, done: Sequence[Compared], refused: Sequence[Mapping
     """The report of all that was compared. Raises :class:`PoiseError` where it cannot be drawn or written."""
     from poise.report import write_report as write
 
-    make_room(path)
     with show.waiting([one.file for one in done]) as tell_progress:
         place = iter(one.file for one in done)
         write(

@@ -187,8 +187,12 @@ def _module_named(name: str) -> Any:
 
 
 def _attribute(module: Any, place: str, name: str) -> Any:
+    from poise.peers.raw import RAW
+
     there = _callables(module)
     offer = f"it has {', '.join(there)}" if there else "name a class or function of it"
+    if any(known.partition("-")[0] == place for known in RAW):
+        offer += f"; plain {place} is that package as it is"
     if not name:
         raise FormatError(f"{place}: which of it? {place}:NAME; {offer}")
     thing = module
@@ -200,5 +204,10 @@ def _attribute(module: Any, place: str, name: str) -> Any:
 
 
 def _callables(module: Any) -> Sequence[str]:
-    own = [n for n, v in vars(module).items() if callable(v) and getattr(v, "__module__", None) == module.__name__]
+    family = module.__name__.partition(".")[0]  # a package gathers what its modules define
+
+    def belongs(value: Any) -> bool:
+        return callable(value) and str(getattr(value, "__module__", "")).partition(".")[0] == family
+
+    own = [n for n, v in vars(module).items() if belongs(v)]
     return [n for n in own if not n.startswith("_")][:12]

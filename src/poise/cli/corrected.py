@@ -61,25 +61,46 @@ def applied(reading: Reading, recording: Recording) -> Recording:
 
 def asked(reading: Reading) -> tuple[str, Corrections]:
     """The words for the axes of all sensors, and the corrections of single ones; raises UsageError for what is neither."""
-    from poise.data.axes import rotation_matrix
     from poise.data.corrections import Corrections
 
     told = _remaps(reading.remap)
     for sensor, words in told.items():
-        try:
-            rotation_matrix(words, mirror=sensor != "all")
-        except PoiseError as error:
-            usage(f"--remap: {error}")
+        _check_axes("--remap", sensor, words)
     delays = {}
     for sensor, text in (pairs(reading.delay, "--delay", "mag=0.015") or {}).items():
-        try:
-            late = float(text)
-        except ValueError:
-            late = math.nan
-        if sensor not in _TABLES["delay"] or not abs(late) <= 1.0:
-            usage(f"--delay {sensor}={text}: expected acc or mag and seconds, at most 1, such as mag=0.015")
-        delays[sensor] = late
+        if sensor not in _TABLES["delay"]:
+            usage(f"--delay {sensor}={text}: expected acc or mag and seconds, such as mag=0.015")
+        delays[sensor] = _seconds(f"--delay {sensor}={text}", text)
     return told.pop("all", ""), Corrections(axes=told, delays=delays)
+
+
+def check_unit(where: str, sensor: str, text: str) -> None:
+    """Raises :class:`UsageError`, which names *where*, for what is no unit of *sensor*."""
+    from poise.formats.units import expect
+
+    try:
+        expect(sensor, text, where)
+    except PoiseError as error:
+        usage(str(error))
+
+
+def _check_axes(where: str, sensor: str, words: str) -> None:
+    from poise.data.axes import rotation_matrix
+
+    try:
+        rotation_matrix(words, mirror=sensor != "all")
+    except PoiseError as error:
+        usage(f"{where}: {error}")
+
+
+def _seconds(where: str, text: str) -> float:
+    try:
+        late = float(text)
+    except ValueError:
+        late = math.nan
+    if not abs(late) <= 1.0:
+        usage(f"{where}: expected seconds, at most 1, such as 0.015")
+    return late
 
 
 def _remaps(text: str | None) -> dict[str, str]:
@@ -167,12 +188,35 @@ def _loaded(path: Path) -> dict[str, dict[str, Any]]:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
         usage(f"--profile {path}: is no TOML ({problem}); {example}")
     for table, values in found.items():
-        known = _TABLES.get(table)
-        if known is None or not isinstance(values, dict) or not set(values) <= set(known):
-            usage(f"--profile {path}: [{table}] not understood; {example}")
-        if not all(isinstance(value, (float, int) if table == "delay" else str) for value in values.values()):
-            usage(f"--profile {path}: [{table}] has a value of the wrong kind; {example}")
+        if table not in _TABLES:
+            usage(f"--profile {path}: no table [{table}] is known; {example}")
+        if not isinstance(values, dict):
+            usage(f"--profile {path}: {table} is no table; {example}")
+        for name, value in values.items():
+            _check_entry(f"--profile {path}: [{table}] {name}", table, name, value)
     return found
+
+
+def _check_entry(where: str, table: str, name: str, value: Any) -> None:
+    """Raises :class:`UsageError`, which names the file and the key, for what a profile cannot say."""
+    if name not in _TABLES[table]:
+        usage(f"{where}: [{table}] is of {', '.join(_TABLES[table])}")
+    if table == "delay":
+        if isinstance(value, bool) or not isinstance(value, (float, int)):
+            usage(f"{where}: expected seconds, a number such as 0.015, found {value!r}")
+        _seconds(f"{where} = {value!r}", str(value))
+        return
+    if not isinstance(value, str):
+        usage(f"{where}: expected a text, found {value!r}")
+    if table == "units":
+        check_unit(where, name, value)
+    else:
+        _check_axes(where, name, value)
+
+
+def corrects(reading: Reading) -> bool:
+    """Whether there is anything in *reading* for a profile to keep."""
+    return bool(reading.units or reading.remap or reading.delay)
 
 
 def save_profile(reading: Reading, path: Path, comment: str) -> None:

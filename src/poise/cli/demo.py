@@ -76,11 +76,13 @@ def _made() -> list[Recording]:
 
 def _claim(folder: Path) -> None:
     """Mark *folder* as the demo's; raises :class:`FormatError` where somebody else's files are in the way."""
-    from poise.cli.targets import make_room
     from poise.formats.names import listed
 
+    try:
+        folder.mkdir(parents=True, exist_ok=True)  # the demo's own
+    except OSError as problem:
+        raise FormatError(f"{folder}: no folder can be made there: {problem.strerror or problem}") from None
     mark = folder / _MARK
-    make_room(mark)
     if mark.is_file():
         return
     if found := [name for name in _FILES if (folder / name).exists()]:
@@ -92,11 +94,9 @@ def _claim(folder: Path) -> None:
 
 
 def _write(recording: Recording, folder: Path) -> Path:
-    from poise.cli.targets import make_room
     from poise.formats import write
 
     file = folder / f"{recording.name}.csv"
-    make_room(file)
     write(recording, file)
     return file
 

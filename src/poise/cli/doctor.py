@@ -11,7 +11,7 @@ from cyclopts import Parameter
 
 from poise.cli import corrected, show
 from poise.cli.options import Reading, UsageError, usage
-from poise.cli.targets import PICTURES, check_room, make_room
+from poise.cli.targets import PICTURES, check_room, distinct
 from poise.errors import FormatError
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ def doctor(
     hemisphere
         Where they were made: the field points down in the north, up in the south, which tells the sign of acc and mag.
     save_profile
-        Write what surely repairs the one FILE, as a file for --profile.
+        Write what surely repairs the one FILE, as a file for --profile; nothing is written where nothing is to be repaired.
     sheet
         The plots behind the verdicts: one .html for all FILEs, or a picture (.png, .svg, .pdf) of one.
     json
@@ -162,9 +162,7 @@ def _tell(one: Examined) -> None:
 
 
 def _check_targets(files: list[Path], save_profile: Path | None, sheet: Path | None) -> None:
-    inputs = {file.resolve() for file in files}
-    if len(inputs) < len(files):
-        usage("a recording is given twice")
+    inputs = distinct(files)
     if save_profile is not None:
         if len(files) != 1:
             usage(f"--save-profile {save_profile} is of one recording, {len(files)} are given")
@@ -185,15 +183,16 @@ def _check_targets(files: list[Path], save_profile: Path | None, sheet: Path | N
 def _write(done: list[Examined], save_profile: Path | None, sheet: Path | None) -> list[str]:
     """Write the profile and the sheet; what to say of them."""
     written = []
-    if save_profile is not None and done:
-        make_room(save_profile)
+    if save_profile is not None and done and not corrected.corrects(done[0].reading):
+        what = "nothing of it is repaired for sure" if done[0].diagnosis.found("sure") else "nothing to repair"
+        written.append(f"{done[0].file}: {what}: no profile written")
+    elif save_profile is not None and done:
         one = done[0]
         corrected.save_profile(one.reading, save_profile, f"what repairs {one.file.name}, by poise doctor")
         written.append(
             f"profile in {save_profile}; poise estimate {shlex.quote(str(one.file))} --profile {save_profile}"
         )
     if sheet is not None and done:
-        make_room(sheet)
         if sheet.suffix.lower() in _PAGES:
             from poise.report.diagnoses import write_sheet
 

@@ -11,7 +11,8 @@ from cyclopts import Parameter
 
 from poise.cli import show
 from poise.cli.options import Reading, Running, UsageError, usage
-from poise.cli.targets import PICTURES, make_room, targets
+from poise.cli.targets import PICTURES, targets
+from poise.errors import FormatError
 
 if TYPE_CHECKING:
     from poise.data.attitude import Attitude
@@ -65,7 +66,7 @@ def estimate(
         Recordings: CSV, TSV, Parquet, npz or MATLAB files or ROS bags, recognised by their content.
     output
         A file (.parquet, .csv, .tum for a trajectory in TUM text, .bag or .mcap for sensor_msgs/Imu messages) for one
-        FILE, or a folder for any number.
+        FILE, or a folder that is there for any number.
     format
         What to write where the output is a folder; `ros2` makes `NAME.attitude` there, the folder of a ROS 2 bag.
     plot
@@ -107,8 +108,6 @@ def estimate(
             tell("reading", 0.0)
             kind = format or outputs[file].suffix.lower().lstrip(".").replace("txt", "tum")
             if file not in tables and long.suits(file, reading, running, kind):
-                for place in filter(None, (outputs[file], pictures.get(file))):
-                    make_room(place)
                 result = long.estimate(file, outputs[file], kind, frame, pictures.get(file), reading, running, tell)
                 result["doubts"] = running.doubts(result["learned"])
                 return result | {"learned_over_time": None} | _keep(result["learned"], kept.get(file))
@@ -130,13 +129,33 @@ def estimate(
     except UsageError as error:
         show.problem(error)
         return 2
+    except FormatError as error:
+        show.problem(error)
+        return 1
+    useless = _useless(results)
+    refused += useless
     if json:
         show.as_json({"method": running.method, "results": results, "errors": refused})
     elif results:
         _report(results, running.method)
         if learned:
             _report_learned(results, running.method)
+    for each in useless:
+        show.problem(f"{each['file']}: {each['error']}")
     return 1 if refused else 0
+
+
+def _useless(results: list[dict[str, Any]]) -> list[dict[str, str]]:
+    """The files of which no row came out valid: what was written says so row by row, but it is no attitude."""
+    return [
+        {
+            "file": result["file"],
+            "error": f"no row is valid: {result['invalid_because'] or 'there is none'}; "
+            f"{result['output']} was written all the same, poise doctor shows what is wrong with the samples",
+        }
+        for result in results
+        if not result["valid"] > 0
+    ]
 
 
 def _finished(
@@ -149,13 +168,14 @@ def _finished(
     tell: Callable[[str, float], None],
 ) -> dict[str, Any]:
     """Write the attitude and its picture; the line of the summary."""
+    import numpy as np
+
+    from poise.data.flags import why_invalid
     from poise.estimators import judged_by
     from poise.evaluation import evaluate
     from poise.formats import write
 
     tell("writing", 0.8)
-    for place in filter(None, (target, picture)):
-        make_room(place)
     write(attitude, target, format, recording=recording)
     errors = evaluate(attitude, recording) if recording.truth is not None else None
     if picture:
@@ -171,6 +191,7 @@ def _finished(
         "seconds": recording.duration,
         "rate_hz": recording.rate_hz,
         "valid": float(attitude.valid.mean()) if len(attitude) else float("nan"),
+        "invalid_because": why_invalid(int(np.bitwise_or.reduce(attitude.flags))),
         "heading": attitude.heading_reference,
         "frame": attitude.frame,
         "error_deg": errors.rmse_deg()._asdict() if errors else None,
@@ -185,7 +206,6 @@ def _keep(learned: Any, kept: Path | None) -> dict[str, Any]:
     from poise.formats import write
 
     if kept and learned is not None:
-        make_room(kept)
         write(learned, kept)
     return {"learned_saved": kept and str(kept)}
 
@@ -195,7 +215,6 @@ def _draw_or_write(attitude: Attitude, recording: Recording, over_time: Path | N
     from poise.formats import write
 
     if over_time and attitude.learning is not None:
-        make_room(over_time)
         if over_time.suffix.lower() in PICTURES:
             from poise.plots import learning_figure, save_figure
 
@@ -235,7 +254,7 @@ def _report(results: list[dict[str, Any]], method: str) -> None:
         rows.append(row)
     show.table(f"{method}: attitudes", columns + [f"{judged} error °"] * with_truth, rows)
     for result in results:
-        if not result["valid"] >= _WORTH_SAYING:
+        if 0 < result["valid"] < _WORTH_SAYING:
             show.note(
                 f"{Path(result['file']).name}: only {result['valid']:.1%} of the rows are valid; "
                 "the flags say why: poise.read_attitude(output).reasons()"

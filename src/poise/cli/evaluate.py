@@ -12,6 +12,7 @@ from cyclopts import Parameter
 
 from poise.cli import show
 from poise.cli.options import Reading, Running, UsageError, usage
+from poise.cli.targets import check_room
 from poise.errors import FormatError, RecordingError
 
 if TYPE_CHECKING:
@@ -57,6 +58,8 @@ def evaluate(
         reading.as_arguments()
         if plot and len(files) != 1:
             usage(f"--plot {plot} is one picture, for {len(files)} files; evaluate them one at a time")
+        if plot:
+            check_room(plot)
 
         def work(file: Path, tell: Callable[[str, float], None]) -> dict[str, Any]:
             return _evaluated(file, reference, plot, reading, running, tell)
@@ -66,6 +69,9 @@ def evaluate(
     except UsageError as error:
         show.problem(error)
         return 2
+    except FormatError as error:
+        show.problem(error)
+        return 1
     if json:
         show.as_json({"mean_rmse_deg": _mean(results), "results": results, "errors": refused})
     elif results:

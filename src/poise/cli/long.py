@@ -11,6 +11,7 @@ import numpy as np
 from poise.cli import corrected
 from poise.cli.options import Reading, Running
 from poise.data.attitude import Attitude
+from poise.data.flags import why_invalid
 from poise.data.recording import Recording
 from poise.errors import FormatError, RecordingError
 
@@ -93,6 +94,7 @@ def estimate(
         "seconds": facts.duration,
         "rate_hz": facts.rate_hz,
         "valid": written.valid,
+        "invalid_because": why_invalid(written.flags),
         "heading": written.heading_reference,
         "frame": frame,
         "error_deg": judged,

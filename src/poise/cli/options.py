@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 FILE = Group("What the file does not say", sort_key=1)
 METHOD = Group("The method", sort_key=2)
 
+_Dashed = Annotated[str | None, Parameter(allow_leading_hyphen=True)]
+"""An option whose value may begin with "-": "-x y z", "-33.9,151.2"."""
+
 
 class UsageError(PoiseError):
     """An option that cannot be understood: exit code 2."""
@@ -38,14 +41,14 @@ def usage(message: str) -> NoReturn:
 class Reading:
     """How to read files; what a file says itself needs no option."""
 
-    columns: str | None = None
+    columns: _Dashed = None
     """Names for a file without a header, in order: `time,gx,gy,gz,ax,ay,az,mx,my,mz`, with units if you like
     (`gx[deg/s]`), `-` for a column to skip."""
 
     units: str | None = None
     """Units the header does not name: `gyr=deg/s,acc=g,time=ms`."""
 
-    delimiter: str | None = None
+    delimiter: _Dashed = None
     """What separates columns: `,` `;` `tab` `space`."""
 
     decimal: str | None = None
@@ -54,10 +57,10 @@ class Reading:
     rate: float | None = None
     """Samples per second, for a file without time stamps."""
 
-    topic: str | None = None
+    topic: _Dashed = None
     """The Imu topic of a ROS bag that has several, or both topics: `/imu/data_raw,/imu/mag` (`-`: no magnetometer)."""
 
-    remap: str | None = None
+    remap: _Dashed = None
     """Rename the sensor's axes: `--remap "y -x z"` makes x its y, y its -x, z its z; those of one sensor against the
     others', which may be a mirror image: `--remap "acc=y -x z,mag=-x y z"`."""
 
@@ -125,9 +128,10 @@ class Reading:
         from poise.formats.units import FACTORS
 
         corrected.asked(self)
-        for sensor in pairs(self.units, "--units", "gyr=deg/s,acc=g") or {}:
+        for sensor, unit in (pairs(self.units, "--units", "gyr=deg/s,acc=g") or {}).items():
             if sensor not in FACTORS:
                 usage(f"--units {sensor}=…: expected one of {', '.join(FACTORS)}")
+            corrected.check_unit("--units", sensor, unit)
         if self.rate is not None and not 0.0 < self.rate < math.inf:
             usage(f"--rate {self.rate}: expected samples per second above 0")
         if self.delimiter is not None and self.delimiter not in ("tab", "space") and len(self.delimiter) != 1:
@@ -150,7 +154,7 @@ class Running:
     declination: float | None = None
     """Degrees from true to magnetic north, east positive: headings become true."""
 
-    place: str | None = None
+    place: _Dashed = None
     """`LAT,LON` in degrees: looks the declination up in the world magnetic model, with --date."""
 
     date: str | None = None

@@ -10,7 +10,8 @@ from cyclopts import Parameter
 
 from poise.cli import show
 from poise.cli.options import Reading, Running, UsageError
-from poise.cli.targets import PICTURES, make_room, targets
+from poise.cli.targets import PICTURES, targets
+from poise.errors import FormatError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -52,7 +53,6 @@ def plot(
             from poise.plots import save_figure
 
             tell("drawing", 0.8)
-            make_room(pictures[file])
             save_figure(figure, pictures[file])
             return {"file": str(file), "drawn": kind, "plot": str(pictures[file])}
 
@@ -61,6 +61,9 @@ def plot(
     except UsageError as error:
         show.problem(error)
         return 2
+    except FormatError as error:
+        show.problem(error)
+        return 1
     if json:
         show.as_json({"results": results, "errors": refused})
     elif results:

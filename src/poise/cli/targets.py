@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 from poise.cli.options import usage
@@ -11,21 +12,14 @@ from poise.errors import FormatError
 PICTURES = (".png", ".svg", ".pdf")
 
 
-def make_room(place: Path) -> None:
-    """Make the folder that *place* goes into. Raises :class:`FormatError` where a file is in the way."""
-    try:
-        place.parent.mkdir(parents=True, exist_ok=True)
-    except (FileExistsError, NotADirectoryError):
-        raise FormatError(f"{place}: cannot be written: {place.parent} is a file, not a folder") from None
-    except OSError as problem:
-        raise FormatError(f"{place}: cannot be written: {problem.strerror or problem}") from None
-
-
 def check_room(place: Path) -> None:
-    """Raises :class:`FormatError` where *place* cannot be written, before any work is done for it; makes nothing."""
+    """Raises :class:`FormatError` where *place* cannot be written, before any work is done for it.
+
+    Its folder must be there: one that a slip of the pen names would hide the result.
+    """
     folder = place.parent
-    while not folder.exists() and folder != folder.parent:
-        folder = folder.parent
+    if not folder.exists():
+        raise FormatError(f"{place}: folder {folder} does not exist; make it (mkdir -p), or name another")
     if not folder.is_dir():
         raise FormatError(f"{place}: cannot be written: {folder} is a file, not a folder")
     try:
@@ -35,10 +29,18 @@ def check_room(place: Path) -> None:
         raise FormatError(f"{place}: cannot be written: {folder}: {problem.strerror or problem}") from None
 
 
+def distinct(files: Sequence[Path]) -> set[Path]:
+    """Where *files* really are. Raises :class:`UsageError` for one that is given twice."""
+    inputs = {file.resolve() for file in files}
+    if len(inputs) < len(files):
+        usage("a recording is given twice")
+    return inputs
+
+
 def targets(
     files: list[Path], target: Path | None, ending: str, known: tuple[str, ...], option: str
 ) -> dict[Path, Path]:
-    """Where each file's result goes; never on top of an input or of one another."""
+    """Where each file's result goes; never on top of an input or of one another, and only where there is room for it."""
     if target is None:
         places = {file: Path(file.stem + ending) for file in files}
     elif target.suffix.lower() in known and not target.is_dir():
@@ -49,9 +51,7 @@ def targets(
         usage(f"{option} {target}: expected a folder, or a file ending in {', '.join(known)}")
     else:
         places = {file: target / (file.stem + ending) for file in files}
-    inputs = {file.resolve() for file in files}
-    if len(inputs) < len(files):
-        usage("a recording is given twice")
+    inputs = distinct(files)
     taken: dict[Path, Path] = {}
     for file, place in places.items():
         if place.resolve() in inputs:
@@ -59,4 +59,6 @@ def targets(
         if place in taken:
             usage(f"{taken[place]} and {file} would both be written to {place}; give them two folders")
         taken[place] = file
+    for place in {place.parent: place for place in places.values()}.values():
+        check_room(place)
     return places

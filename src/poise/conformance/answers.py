@@ -89,4 +89,10 @@ def _expected(n: int) -> str:
 
 def _described(value: Any) -> str:
     shape = getattr(value, "shape", None)
-    return f"an array of shape {shape}" if shape is not None else f"a {type(value).__name__}"
+    return f"an array of shape {shape}" if shape is not None else a_kind(value)
+
+
+def a_kind(value: Any) -> str:
+    """The type of *value* with its article: "an int"."""
+    name = type(value).__name__
+    return f"{'an' if name[:1].lower() in 'aeiou' else 'a'} {name}"

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from poise.conformance.answers import Answer, answer, held, row
+from poise.conformance.answers import Answer, a_kind, answer, held, row
 from poise.conformance.signatures import SHAPES, Meaning, kind, meaning, parameters, wanted
 from poise.data.recording import Recording
 from poise.errors import MethodError, PoiseError
@@ -45,7 +45,7 @@ def runner(estimator: Any, name: str, probe: Recording) -> Run:
     if kind(estimator) == "object":
         return _of_object(estimator, name)
     if not callable(estimator):
-        raise MethodError(f"{name} is a {type(estimator).__name__}, which cannot be called; {SHAPES}")
+        raise MethodError(f"{name} is {a_kind(estimator)}, which cannot be called; {SHAPES}")
     found = parameters(estimator)
     if found is not None and _makes(found):
         return _of_maker(estimator, name, "a function that makes one")
@@ -108,9 +108,7 @@ def _of_maker(make: Any, name: str, what: str) -> Run:
                 raise
             made = make(1.0 / fed.rate_hz)  # a class of a C extension does not tell that it needs one
         if _step_of(made) is None:
-            raise MethodError(
-                f"{name} makes a {type(made).__name__}, which cannot be called and has no update(); {SHAPES}"
-            )
+            raise MethodError(f"{name} makes {a_kind(made)}, which cannot be called and has no update(); {SHAPES}")
         return _all_or_steps(made, name, fed) if _step_of(made) == "__call__" else _stepped(made, name, fed)
 
     return Run(name, f"{what} of an object that takes a sample a call", call)
@@ -118,7 +116,7 @@ def _of_maker(make: Any, name: str, what: str) -> Run:
 
 def _of_object(thing: Any, name: str) -> Run:
     if _step_of(thing) is None:
-        raise MethodError(f"{name} is a {type(thing).__name__} that cannot be called and has no update(); {SHAPES}")
+        raise MethodError(f"{name} is {a_kind(thing)} that cannot be called and has no update(); {SHAPES}")
     try:
         deepcopy(thing)
     except Exception as problem:

@@ -105,6 +105,11 @@ JITTER = int(Flag.JITTER)
 UNSETTLED = int(Flag.UNSETTLED)
 
 
+def why_invalid(flags: int) -> str:
+    """The sentences of those of *flags* for which an attitude is not to be acted on; empty without one."""
+    return "; ".join(SENTENCES[flag] for flag in Flag if flag & flags & INVALID)
+
+
 def valid(flags: NDArray[np.uint32]) -> NDArray[np.bool_]:
     """Whether the attitude may be acted on, (n,) bool: none of the bits of :data:`INVALID` is set."""
     return np.asarray((flags & np.uint32(INVALID)) == 0)

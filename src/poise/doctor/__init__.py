@@ -14,6 +14,7 @@ from poise.errors import RecordingError
 __all__ = ["Corrections", "Diagnosis", "Finding", "Hemisphere", "diagnose"]
 
 _LARGEST = 1e12  # no sensor's number, in any unit
+_FEWEST = 10  # blocks that hold force and field, to speak of the angle between them
 _SENSORS = {"gyr": "gyroscope", "acc": "accelerometer", "mag": "magnetometer"}
 
 
@@ -31,39 +32,52 @@ def diagnose(
     axes are judged. *read_as* names the units that a file's numbers were taken for, so that options can name the right
     ones.
     """
-    given, recording = recording, _bounded(recording)
+    given, (recording, wild) = recording, _bounded(recording)
     if hemisphere not in ("north", "south"):
         raise RecordingError(f"hemisphere: expected 'north' or 'south', found {hemisphere!r}")
-    found, evidence = _of_units_and_axes(recording, hemisphere)
+    dead = [name for name in _SENSORS if samples.constant(getattr(recording, name))]
+    found, evidence = _of_units_and_axes(recording, hemisphere, dead)
     if thorough:
+        found += wild
         fixed = Diagnosis(recording, tuple(found)).repairs.apply(recording)
         found += timing.findings(fixed) + samples.findings(fixed)
         if not any(f.severity == "sure" and not f.decided for f in found):
-            found += offsets.findings(fixed)
+            found += offsets.findings(_without(fixed, dead))
     order = {severity: i for i, severity in enumerate(RANK)}
     found.sort(key=lambda f: order[f.severity])
     return Diagnosis(given, tuple(found), evidence, dict(read_as or {}))
 
 
-def _bounded(recording: Recording) -> Recording:
-    """*recording* with what is not finite, or so large that its square is not, as missing."""
-    bounded = {}
+def _bounded(recording: Recording) -> tuple[Recording, list[Finding]]:
+    """*recording* with what is not finite, or so large that its square is not, as missing; and what to say of that."""
+    bounded, found = {}, []
     for sensor in _SENSORS:
         values = getattr(recording, sensor)
         with np.errstate(invalid="ignore"):
             wild = ~(np.abs(values) < _LARGEST) & ~np.isnan(values)
         if wild.any():
             bounded[sensor] = np.where(wild, np.nan, values)
-    return recording.with_samples(**bounded) if bounded else recording
+            rows = int(wild.any(axis=1).sum())
+            text = f"{rows} of {len(values)} samples of {sensor} are infinite or beyond {_LARGEST:g}: taken for missing"
+            found.append(Finding(f"{sensor} samples", "likely", text))
+    return (recording.with_samples(**bounded) if bounded else recording), found
 
 
-def _of_units_and_axes(recording: Recording, hemisphere: Hemisphere) -> tuple[list[Finding], Evidence | None]:
+def _without(recording: Recording, dead: list[str]) -> Recording:
+    """*recording* as if the sensors *dead* were absent: one and the same sample says nothing of how anything turns."""
+    return recording.with_samples(**{name: np.full_like(getattr(recording, name), np.nan) for name in dead})
+
+
+def _of_units_and_axes(
+    recording: Recording, hemisphere: Hemisphere, dead: list[str]
+) -> tuple[list[Finding], Evidence | None]:
     found = [f for f in (_empty(recording), units.of_time(recording)) if f]
     per_second = found[-1].fix.factors.get("time", 1.0) if found else 1.0
     if any(f.name == "samples" for f in found):
         return found, None
-    blocks = turning.blocks(recording, recording.time * per_second if per_second != 1.0 else None)
-    of_acc = units.of_acc(recording, blocks)
+    alive = _without(recording, dead)
+    blocks = turning.blocks(alive, recording.time * per_second if per_second != 1.0 else None)
+    of_acc = units.of_acc(recording, blocks, constant="acc" in dead)
     found += [f for f in (of_acc, units.of_mag(recording)) if f]
     length = _usual(blocks.acc)
     if of_acc is None or "acc" in of_acc.fix.factors:
@@ -74,42 +88,45 @@ def _of_units_and_axes(recording: Recording, hemisphere: Hemisphere) -> tuple[li
     of_gyr, rates = units.of_gyr(blocks, as_is, length, _usual(blocks.mag))
     found += [of_gyr] if of_gyr else []
     verdict = axes.judge(rates.acc, rates.mag)
-    found += _of_axes(verdict, rates, blocks, recording, hemisphere)
+    found += _of_axes(verdict, rates, blocks, alive, hemisphere, dead)
     return found, Evidence(rates.acc, rates.mag, verdict)
 
 
 def _empty(recording: Recording) -> Finding | None:
     """The recording is none: no rows, or a gyroscope or accelerometer without samples."""
-    absent = [
-        name
-        for sensor, name in _SENSORS.items()
-        if sensor != "mag" and not np.isfinite(getattr(recording, sensor)).any()
-    ]
-    rises = bool((np.diff(recording.time[np.isfinite(recording.time)]) > 0).any())
-    if len(recording) >= 2 and not absent and rises:
-        return None
-    what = f"{len(recording)} rows" if len(recording) < 2 else f"no sample of the {' and the '.join(absent)}"
-    if len(recording) >= 2 and not absent:
+    what = ""
+    if len(recording) < 2:
+        what = f"{len(recording)} row{'s' * (len(recording) != 1)}"
+    elif absent := [_SENSORS[sensor] for sensor in ("gyr", "acc") if not np.isfinite(getattr(recording, sensor)).any()]:
+        what = f"no usable sample of the {' and the '.join(absent)}"
+    elif not recording.acc[np.isfinite(recording.acc)].any():
+        what = "every sample of the accelerometer is zero"
+    elif not (np.diff(recording.time[np.isfinite(recording.time)]) > 0).any():
         what = "no time stamp rises above the one before"
-    return Finding("samples", "sure", f"{what}: nothing to estimate an attitude from", decided=False)
+    return Finding("samples", "sure", f"{what}: nothing to estimate an attitude from", decided=False) if what else None
 
 
 def _of_axes(
-    verdict: axes.Verdict, rates: units.Rates, blocks: turning.Blocks, recording: Recording, hemisphere: Hemisphere
+    verdict: axes.Verdict,
+    rates: units.Rates,
+    blocks: turning.Blocks,
+    recording: Recording,
+    hemisphere: Hemisphere,
+    dead: list[str],
 ) -> list[Finding]:
     figures = f"{verdict.against:.1f} standard deviations over {max(len(rates.acc.loss), len(rates.mag.loss))} windows"
     if verdict.wrong:
-        return [_wrong(verdict, blocks, recording, hemisphere, figures)]
+        return [_wrong(verdict, rates, blocks, hemisphere, figures)]
     found = []
     if not verdict.agreed:
-        found.append(Finding("axes", "cannot-tell", _why_not(verdict, rates), decided=False))
+        found.append(Finding("axes", "cannot-tell", _why_not(verdict, rates, dead), decided=False))
     cosine = float(np.trace(turning.mean_cosines(blocks.acc, blocks.mag)))
+    together = np.flatnonzero(np.isfinite(blocks.acc).all(axis=1) & np.isfinite(blocks.mag).all(axis=1))
     if not recording.has_mag:
-        text = (
-            "without a magnetometer the sign of the accelerometer cannot be told: specific force is +g along up at rest"
-        )
+        without = "while mag gives one and the same sample" if "mag" in dead else "without a magnetometer"
+        text = f"{without} the sign of the accelerometer cannot be told: specific force is +g along up at rest"
         found.append(Finding("acc sign", "note", text))
-    elif axes.opposed(cosine, hemisphere):
+    elif len(together) >= _FEWEST and axes.opposed(cosine, hemisphere):
         away = "up" if hemisphere == "north" else "down"
         text = (
             f"the field points {away} (dip {_dip(cosine):+.0f}°), which it does not in the {hemisphere}ern hemisphere: acc "
@@ -117,12 +134,11 @@ def _of_axes(
             "hemisphere (--hemisphere)"
         )
         found.append(Finding("acc sign", "likely", text, Corrections(axes={"acc": "-x -y -z"}), decided=False))
-
     return found
 
 
 def _wrong(
-    verdict: axes.Verdict, blocks: turning.Blocks, recording: Recording, hemisphere: Hemisphere, figures: str
+    verdict: axes.Verdict, rates: units.Rates, blocks: turning.Blocks, hemisphere: Hemisphere, figures: str
 ) -> Finding:
     answer = verdict.answer
     clear = f"({figures}, {verdict.better:.0f} times the misfit)"
@@ -134,15 +150,27 @@ def _wrong(
             f'{name} as "{axes.words(turning.signed_axes()[i].T)}"'
             for name, i in (("acc", answer.acc), ("mag", answer.mag))
         )
-        text = f"the axes of acc, mag and gyr all differ from each other {clear}: {told} would fit, each up to its sign"
-        return Finding("axes", "sure", text, decided=False)
+        text = f"the axes of acc, mag and gyr all differ from each other {clear}"
+        fixes = axes.both_fixes(verdict, blocks.acc, blocks.mag, hemisphere)
+        if fixes is None:
+            return Finding("axes", "sure", f"{text}: {told} would fit, each up to its sign", decided=False)
+        named = {sensor: axes.words(matrix) for sensor, matrix in fixes.axes.items()}
+        fitting = " and ".join(f'{sensor} as "{words}"' for sensor, words in named.items())
+        text += (
+            f": {fitting} fit; the signs by the dip of {_dip(fixes.cosine):+.0f}°, {hemisphere}ern hemisphere assumed, "
+        )
+        text += "but acc and mag may both have the other sign: lay the sensor level, face up: acc z is then +g"
+        return Finding("axes", "sure", text, Corrections(axes=named), decided=False)
     fix = axes.fix(answer, blocks.acc, blocks.mag, hemisphere)
     correction = Corrections(axes={answer.sensor: axes.words(fix.matrix)})
     name = f"{answer.sensor} axes"
-    if not recording.has_mag:
+    if not (len(rates.acc.loss) and len(rates.mag.loss)):
+        one, other = (
+            ("acc", "a magnetometer") if len(rates.acc.loss) else ("mag", "an accelerometer that feels gravity")
+        )
         text = (
-            f"the axes of acc and gyr do not fit each other {clear}; without a magnetometer it cannot be told which of the "
-            f'two is wrong: gyr as "{axes.words(fix.matrix)}" fits, and so do other axes of acc'
+            f"the axes of {one} and gyr do not fit each other {clear}; without {other} it cannot be told which of the "
+            f'two is wrong: gyr as "{axes.words(fix.matrix)}" fits, and so do other axes of {one}'
         )
         return Finding("axes", "sure", text, correction, decided=False)
     text = f"the {_SENSORS[answer.sensor]}'s axes do not fit the others' {clear}; \"{axes.words(fix.matrix)}\" of its own do"
@@ -152,8 +180,10 @@ def _wrong(
     return Finding(name, "sure", text, correction, decided=fix.decided)
 
 
-def _why_not(verdict: axes.Verdict, rates: units.Rates) -> str:
+def _why_not(verdict: axes.Verdict, rates: units.Rates, dead: list[str]) -> str:
     windows = max(len(rates.acc.loss), len(rates.mag.loss))
+    if "gyr" in dead or (not windows and dead):
+        return f"axes cannot be told: {samples.silence(dead)}"
     if not windows:
         return (
             "axes cannot be told: no two windows of 2 s hold gyroscope, accelerometer or magnetometer without a break"

@@ -9,7 +9,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from poise.doctor.turning import Turns, mean_cosines, signed_axes
+from poise.doctor.turning import Turns, changed, mean_cosines, signed_axes
 
 Floats = NDArray[np.float64]
 Hemisphere = Literal["north", "south"]
@@ -50,6 +50,8 @@ class Verdict(NamedTuple):
     """the next likely"""
     against: float
     """standard deviations from the likeliest to the axes as they are"""
+    apart: float
+    """where both acc and mag differ: standard deviations from each one's likeliest to its own next, the smaller"""
     better: float
     """how many times smaller the loss of the likeliest is than that of the axes as they are, where they differ most"""
 
@@ -81,7 +83,7 @@ def judge(acc: Turns, mag: Turns) -> Verdict:
         if not any(each[1:] == both[1:] for each in answers):
             found = _judged((*answers, both), acc, mag, by_acc, by_mag)
             if found.answer.sensor == "both" and found.sure:
-                return found
+                return found._replace(apart=min(_alone(by_acc[:, :48]), _alone(by_mag[:, :48])))
     return _judged(answers, acc, mag, by_acc, by_mag)
 
 
@@ -100,7 +102,16 @@ def _judged(answers: Sequence[Answer], acc: Turns, mag: Turns, by_acc: Floats, b
     sure = bool(best != 0 and margin >= SURE and clear)
     wrong = sure or bool(best != 0 and against >= _REFUTED and clear)
     agreed = bool(best == 0 and margin >= AGREED)
-    return Verdict(chosen, sure, wrong, agreed, margin, answers[rival], against, better)
+    return Verdict(chosen, sure, wrong, agreed, margin, answers[rival], against, 0.0, better)
+
+
+def _alone(votes: Floats) -> float:
+    """Standard deviations of one sensor's votes from its likeliest of the 48 answers to its next."""
+    total = votes.sum(axis=0)
+    best = int(total.argmin())
+    spread = np.sqrt(((votes - votes[:, [best]]) ** 2).sum(axis=0))
+    others = np.arange(len(total)) != best
+    return float(np.min((total - total[best])[others] / np.maximum(spread[others], 1e-9)))
 
 
 def _clear(answer: Answer, acc: Turns, mag: Turns, by_acc: Floats, by_mag: Floats) -> tuple[bool, float]:
@@ -147,6 +158,39 @@ def fix(answer: Answer, acc: Floats, mag: Floats, hemisphere: Hemisphere) -> Fix
     if cosine * down(hemisphere) < 0:
         matrix, cosine = -matrix, -cosine
     return Fix(matrix, bool(abs(cosine) > _LEAST_DIP), cosine)
+
+
+class BothFixes(NamedTuple):
+    """The axes that put two sensors right."""
+
+    axes: dict[str, Floats]
+    """(3, 3) by sensor, v_right = M v"""
+    cosine: float
+    """between specific force and field, thereafter"""
+
+
+def both_fixes(verdict: Verdict, acc: Floats, mag: Floats, hemisphere: Hemisphere) -> BothFixes | None:
+    """The axes for the two sensors of an answer "both"; None where the motion does not name each one's beyond doubt.
+
+    One of the three is taken to be right; which one is a rotation common to all, which is no fault. The one that is changed
+    least is chosen. Force and field stand as they do in the *hemisphere*; no motion tells the sign that they share.
+    """
+    seen = signed_axes()[verdict.answer.acc], signed_axes()[verdict.answer.mag]
+    mirrored = np.linalg.det(seen[0]) < 0
+    if verdict.apart < SURE or mirrored != (np.linalg.det(seen[1]) < 0):
+        return None
+    cosine = float(np.sum((seen[0].T @ mean_cosines(acc, mag)) * seen[1].T))
+    relative = 1.0 if cosine * down(hemisphere) > 0 else -1.0
+    between = seen[0] @ seen[1].T  # the field as seen from acc
+    alike = [{"acc": seen[0].T, "mag": relative * seen[1].T}, {"acc": -seen[0].T, "mag": -relative * seen[1].T}]
+    others = [{"gyr": seen[0], "mag": relative * between}, {"gyr": seen[1], "acc": relative * between.T}]
+    candidates = others if mirrored else [*alike, *others]
+    return BothFixes(min(candidates, key=_cost), relative * cosine)
+
+
+def _cost(axes: dict[str, Floats]) -> int:
+    """How many axes are changed."""
+    return sum(map(changed, axes.values()))
 
 
 def down(hemisphere: Hemisphere) -> float:

@@ -101,6 +101,7 @@ def fit(vector: Floats, blocks: turning.Blocks, along: turning.Path) -> Fit | No
     """
     rate = blocks.gyr
     known = np.isfinite(vector).all(axis=1) & np.isfinite(rate).all(axis=1)
+    known &= np.einsum("ij,ij->i", vector, vector) > 0
     index = np.flatnonzero(known)
     later = np.searchsorted(index, index + _LAG)
     first, later = index[later < len(index)], later[later < len(index)]

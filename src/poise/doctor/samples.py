@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,6 +21,20 @@ _REST = 1.0  # s: windows in which rest is looked for
 _REST_GYR, _REST_ACC = 0.02, 0.15  # rad/s, m/s²: the standard deviation of what rests in a hand's reach
 _REST_TURN = 0.06  # rad/s: the mean of what rests
 _HELD = 0.5  # of the samples repeat: a slower sensor whose last value the logger held
+
+
+def constant(values: Floats) -> bool:
+    """Whether a sensor (n, 3) gives one and the same sample from beginning to end."""
+    given = values[np.isfinite(values).all(axis=1)]
+    return len(given) >= 3 and bool((given == given[0]).all())
+
+
+def silence(dead: Sequence[str]) -> str:
+    """What *dead* sensors do, in words; empty without any."""
+    names = " and ".join(filter(None, (", ".join(dead[:-1]), *dead[-1:])))
+    return (
+        f"{names} {'give' if len(dead) > 1 else 'gives'} one and the same sample from beginning to end" if dead else ""
+    )
 
 
 def findings(recording: Recording) -> list[Finding]:
@@ -53,10 +69,8 @@ def _stuck(recording: Recording, sensor: str, values: Floats, time: Floats) -> l
     if not same.any():
         return []
     share = float(same.mean())
-    if share == 1.0:
-        text = (
-            f"{sensor} gives one and the same sample from beginning to end: a sensor that is stuck, or not one at all"
-        )
+    if constant(values):
+        text = f"{silence([sensor])}: a sensor that is stuck, or not one at all"
         return [Finding(f"{sensor} stuck", "likely", text)]
     edges = np.flatnonzero(np.diff(np.concatenate([[False], same, [False]]).astype(np.int8)))
     begin, end = time[edges[0::2]], time[edges[1::2]]
@@ -115,6 +129,12 @@ def _rest(recording: Recording) -> list[Finding]:
     if not count:
         return []
     known: Mask = np.asarray(np.isfinite(recording.acc).all(axis=1))
+    why = silence([name for name in ("gyr", "acc") if constant(getattr(recording, name))])
+    if not known.any() or not np.isfinite(recording.gyr).all(axis=1).any():
+        why = "a sensor gives no sample"
+    if why:
+        text = f"{why}: whether it rests, and how noisy the sensors then are, cannot be told"
+        return [Finding("rest", "cannot-tell", text, decided=False)]
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         gyr = recording.gyr[: count * rows].reshape(count, rows, 3)
         acc = np.where(known[:, None], recording.acc, np.nan)[: count * rows].reshape(count, rows, 3)

@@ -36,10 +36,10 @@ def signed_axes() -> Floats:
             matrix = np.zeros((3, 3))
             matrix[range(3), order] = signs
             found.append(matrix)
-    return np.array(sorted(found, key=lambda m: (np.linalg.det(m) < 0, _changed(m))))
+    return np.array(sorted(found, key=lambda m: (np.linalg.det(m) < 0, changed(m))))
 
 
-def _changed(matrix: Floats) -> int:
+def changed(matrix: Floats) -> int:
     """How many axes *matrix* changes."""
     return int(np.sum(np.diag(matrix) != 1.0))
 
@@ -178,8 +178,8 @@ def directions(vector: Floats) -> Floats:
 
 def windows(count: int, width: float) -> NDArray[np.intp]:
     """(count,) the window that each block belongs to; shorter ones where the recording is short."""
-    length = min(WINDOW, max(count * width / LEAST_WINDOWS, 3 * width))
-    return np.asarray((np.arange(count) + 0.5) * width / length, dtype=np.intp)
+    length = max(min(WINDOW / width, max(count / LEAST_WINDOWS, 3.0)), 1e-3)  # blocks
+    return np.asarray((np.arange(count) + 0.5) / length, dtype=np.intp)
 
 
 def turns(vector: Floats, along: Path, width: float, length: float) -> Turns:

@@ -50,8 +50,8 @@ def of_time(recording: Recording) -> Finding | None:
     return Finding("time unit", "sure", f"{said}; {taken} it is {1.0 / (step * fits[0]):.1f} Hz", fix)
 
 
-def of_acc(recording: Recording, found: Blocks) -> Finding | None:
-    """Whether the specific force is in another unit than m/s², or lacks gravity."""
+def of_acc(recording: Recording, found: Blocks, *, constant: bool = False) -> Finding | None:
+    """Whether the specific force is in another unit than m/s², or lacks gravity; *constant* is one and the same sample."""
     length = _lengths(recording.acc)
     if len(length) < 2:
         return None
@@ -62,6 +62,9 @@ def of_acc(recording: Recording, found: Blocks) -> Finding | None:
     unit = fits[0] if fits else ""
     if unit == "m/s²":
         return None
+    if constant and not unit:
+        text = f"{said}, the same in every sample: whether that is gravity ({gravity:.4g} m/s²), in what unit, cannot be told"
+        return Finding("acc unit", "cannot-tell", text, decided=False)
     if unit and (low > _STEADY * median or _has_gravity(found, gravity / _ACC[unit])):
         fix = Corrections(factors={"acc": _ACC[unit]})
         return Finding("acc unit", "sure", f"{said}, gravity is {gravity:.4g} m/s²: it is in {unit}", fix)

@@ -43,7 +43,7 @@ from poise.estimators.loop import (
 )
 from poise.estimators.parameters import as_dict, prepared
 from poise.estimators.rest_bias import RestBias
-from poise.estimators.saving import copied, filled, flat, sealed, unsealed
+from poise.estimators.saving import copied, differences, filled, flat, sealed, unsealed
 from poise.estimators.slewed import Slewed
 from poise.estimators.starting import checked_start, every
 from poise.math import arrays
@@ -307,7 +307,7 @@ class Stream:
             raise StateError(f"not a saved stream: {problem!r}; give the bytes that Stream.save() returned") from None
         if identity != self.identity:
             raise StateError(
-                f"the saved stream ran {identity}, this one runs {self.identity}; "
+                f"the saved stream differs from this one: {differences(str(identity), self.identity)}; "
                 "restore it into a Stream with the same method and parameters"
             )
         memory = run = None

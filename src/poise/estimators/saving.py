@@ -35,6 +35,45 @@ def unsealed(saved: bytes) -> dict[str, Any]:
         raise StateError(f"not a saved stream: {problem!r}; give the bytes that Stream.save() returned") from None
 
 
+def differences(saved: str, own: str) -> str:
+    """What tells the identity of a *saved* stream from one's *own*, in words: the parameters that differ, or the method."""
+    before, now = _parameters(saved), _parameters(own)
+    if before.keys() == now.keys():
+        changed = [f"{_leaf(path)} is {before[path]}, here {now[path]}" for path in before if before[path] != now[path]]
+        return "; ".join(dict.fromkeys(changed))
+    there, here = dict.fromkeys(map(_leaf, before)), dict.fromkeys(map(_leaf, now))
+    lacking, new = [name for name in there if name not in here], [name for name in here if name not in there]
+    told = " and ".join(filter(None, (_some(lacking, "here there is no"), _some(new, "there was no"))))
+    return "another method, or others around it" + (f": {told}" if told else "")
+
+
+def _parameters(identity: str) -> dict[str, str]:
+    """The parameters in an identity by their path from the outermost, with its name."""
+    outermost, brace, text = identity.partition("{")
+    try:
+        tree = json.loads(brace + text)
+    except (ValueError, RecursionError):
+        return {"": identity}
+
+    def leaves(branch: dict[str, Any], path: str) -> dict[str, str]:
+        found: dict[str, str] = {}
+        for name, value in branch.items():
+            inner = isinstance(value, dict)
+            found |= leaves(value, f"{path}{name}.") if inner else {f"{path}{name}": json.dumps(value)}
+        return found
+
+    return leaves(tree, f"{outermost}.")
+
+
+def _leaf(path: str) -> str:
+    return path.rpartition(".")[2]
+
+
+def _some(names: list[str], what: str, most: int = 4) -> str:
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return f"{what} {', '.join(names[:most])}{more}" if names else ""
+
+
 def copied(state: Any) -> Any:
     if isinstance(state, tuple):
         return type(state)(*map(copied, state))

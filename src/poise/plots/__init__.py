@@ -8,6 +8,7 @@ from poise.plots.inline import inline_svg
 from poise.plots.learning import learning_figure
 from poise.plots.recording import recording_figure
 from poise.plots.style import FORMATS, POINTS, save_figure
+from poise.plots.tipping import tip_over_figure
 
 __all__ = [
     "FORMATS",
@@ -19,4 +20,5 @@ __all__ = [
     "learning_figure",
     "recording_figure",
     "save_figure",
+    "tip_over_figure",
 ]

@@ -36,14 +36,14 @@ def _section(diagnosis: Diagnosis, command: str, i: int) -> str:
         parts.append(f"<p>Repaired:</p><pre><code>{_text(command)}</code></pre>")
     rows = []
     for f in diagnosis.findings:
-        cells = (("time", f.name), ("text", f.sentence), ("", options(f.fix, diagnosis.read_as)))
+        cells = (("time", f.name), ("text", f.sentence), ("option", options(f.fix, diagnosis.read_as)))
         rows.append(
             f"<tr><th>{_text(f.severity)}</th>"
             + "".join(f'<td class="{k}">{_text(c)}</td>' for k, c in cells)
             + "</tr>"
         )
     header = "".join(f"<th>{name}</th>" for name in ("how sure", "what", "figures", "option"))
-    parts.append(_grid(header, "".join(rows)))
+    parts.append(f'<div class="findings">{_grid(header, "".join(rows))}</div>')
     if len(recording) > 1:
         caption = "What the verdicts rest on"
         parts.append(_figure(lambda n: diagnosis_figure(diagnosis, narrow=n), f"d{i}-evidence", caption))

@@ -1,0 +1,177 @@
+"""``poise tipover``: what people see, and what goes wrong."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import poise
+from data_files import data_path
+from poise.cli import run
+from poise.monitor import dry_run, judge
+from tip_scenes import motion, recorded, times, toppling
+
+pytest.importorskip("matplotlib")
+
+
+@cache
+def fall() -> poise.Recording:
+    """A robot that falls to the left, on the ground at 5.8 s; with the reference."""
+    time = times(9.0)
+    return recorded(motion(time, toppling(time, 5.0), way="left"))
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    poise.write(replace(fall(), truth=None, moving=None), "fall.csv")
+    time = times(5.0)
+    poise.write(recorded(motion(time, 0.0 * time)), "stands.csv")
+    return tmp_path
+
+
+def said(capsys: pytest.CaptureFixture[str], *arguments: str, code: int = 0) -> Any:
+    assert run(["tipover", *arguments, "-m", "tilt", "--json"]) == code
+    return json.loads(capsys.readouterr().out)
+
+
+def test_it_tells_what_would_have_been_triggered(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    found = said(capsys, "fall.csv", "stands.csv", "--falls", "5.8")["results"]
+    one = found[0]
+    assert [event["state"] for event in one["events"]] == ["upright", "leaning", "tipping", "fallen"]
+    (alarm,) = one["alarms"]
+    assert alarm["direction"] == "left" and alarm["true"] is True and 0.15 < alarm["lead"] < 0.4
+    assert one["missed"] == [] and one["false_per_hour"] == 0.0
+    expected = judge(poise.estimate(poise.Tilt(), poise.read("fall.csv")), poise.read("fall.csv"))
+    assert [event["time"] for event in one["events"]] == [event.time for event in expected.events]
+    assert [event["state"] for event in found[1]["events"]] == ["upright"] and found[1]["alarms"] == []
+    assert len(found[1]["missed"]) == 1  # the same falls are asked of each file
+
+
+def test_false_alarms_are_counted_by_the_hour(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (one,) = said(capsys, "fall.csv", "--falls", "none")["results"]
+    assert [alarm["true"] for alarm in one["alarms"]] == [False]
+    assert one["false_per_hour"] == pytest.approx(3600.0 / 9.0, rel=0.01)
+    (one,) = said(capsys, "fall.csv")["results"]
+    assert (
+        [alarm["true"] for alarm in one["alarms"]] == [None] and one["falls"] is None and one["false_per_hour"] is None
+    )
+    assert 0.15 < one["alarms"][0]["lead"] < 0.4  # by the attitude judged
+
+
+def test_a_reference_tells_falls_and_those_that_were_missed() -> None:
+    recording = fall()
+    attitude = poise.estimate(poise.Tilt(), recording)
+    found = judge(attitude, recording)
+    outcome = dry_run(found, recording.truth, recording)
+    assert outcome.falls is not None and len(outcome.falls) == 1
+    assert outcome.falls[0].ground == pytest.approx(5.8, abs=0.05)
+    assert [alarm.true for alarm in outcome.alarms] == [True] and outcome.missed == []
+    upright = poise.Attitude.of(attitude.time, np.tile([1.0, 0.0, 0.0, 0.0], (len(attitude), 1)))
+    blind = dry_run(judge(upright, recording), recording.truth, recording)
+    assert blind.alarms == [] and len(blind.missed) == 1
+    wrong = dry_run(found, upright, recording)
+    assert [alarm.true for alarm in wrong.alarms] == [False] and wrong.false_per_hour > 0.0
+    lost = dry_run(found, poise.Attitude.of(attitude.time, np.full((len(attitude), 4), np.nan)), recording)
+    assert [alarm.true for alarm in lost.alarms] == [None] and lost.hours == 0.0
+
+
+def test_options_and_the_file_reach_the_monitor(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("robot.toml").write_text("[tipover]\nrange = 10\nself_balancing = 60\nlook_ahead = 0\n")
+    (by_file,) = said(capsys, "fall.csv", "--config", "robot.toml")["results"]
+    options = ["--range", "10", "--self-balancing", "60", "--look-ahead", "0"]
+    (by_options,) = said(capsys, "fall.csv", *options)["results"]
+    assert by_file["events"] == by_options["events"]
+    (usual,) = said(capsys, "fall.csv")["results"]
+    (more,) = said(capsys, "fall.csv", "--config", "robot.toml", "--range", "left=30")["results"]
+    starts = [next(e["time"] for e in one["events"] if e["state"] == "leaning") for one in (by_file, usual, more)]
+    assert starts == sorted(starts) and starts[0] < starts[1] < starts[2]
+    (turned,) = said(capsys, "fall.csv", "--mount", "y -x z")["results"]
+    assert turned["alarms"][0]["direction"] == "forward"
+    (tared,) = said(capsys, "fall.csv", "--tare", "1,4")["results"]
+    assert tared["events"][0]["tilt_deg"] < 0.3 < usual["events"][0]["tilt_deg"]
+
+
+def test_tables_and_a_picture(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ["tipover", "fall.csv", "stands.csv", "-m", "tilt", "--report", "--plot", "out", "--falls", "5.8"]
+    assert run(arguments) == 1
+    assert "folder out does not exist" in capsys.readouterr().err
+    Path("out").mkdir()
+    assert run(arguments) == 0
+    out, err = capsys.readouterr()
+    for words in ("what would have been told", "to the left", "ground at s", "a fall", "How long it was in each state"):
+        assert words in out
+    assert "stands.csv: no alarm" in err and "missed: a fall at 5.80 s" in err
+    for name in ("fall", "stands"):
+        assert Path(f"out/{name}.tipover.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_an_attitude_is_judged_without_specific_force(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["estimate", "fall.csv", "-m", "tilt", "-o", "a.parquet"]) == 0
+    capsys.readouterr()
+    assert run(["tipover", "a.parquet"]) == 0
+    out, err = capsys.readouterr()
+    assert "tipping" in out and "free fall and picking up are not told" in err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--range", "0"], "empty range"),
+        (["--range", "wide"], "--range 'wide': expected degrees"),
+        (["--range", "ahead=3"], "range.ahead"),
+        (["--range", "50"], "beyond the largest self-balancing angle"),
+        (["--dwell", "-1"], "TipOver.dwell"),
+        (["--dwell", "nan"], "TipOver.dwell"),
+        (["--mount", "x y"], "axes 'x y'"),
+        (["--tare", "5"], "--tare 5: expected START,END"),
+        (["--tare", "5,2"], "the start first"),
+        (["--falls", "often"], "--falls 'often'"),
+        (["--falls", "nan"], "--falls 'nan'"),
+        (["--config", "absent.toml"], "--config absent.toml: cannot be read"),
+        (["--config", "fall.csv"], "no TOML file"),
+        (["--plot", "picture.txt"], "--plot"),
+        (["fall.csv"], "twice"),
+        (["--method", "none"], "no method 'none'"),
+    ],
+)
+def test_usage_is_refused_in_one_line(
+    here: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str
+) -> None:
+    assert run(["tipover", "fall.csv", *arguments]) == 2
+    out, err = capsys.readouterr()
+    assert words in err and err.count("\n") == 1 and not out
+
+
+def test_a_bad_file_beside_a_good_one(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("empty.csv").write_text("")
+    Path("header.csv").write_text("time[s],gx[rad/s],gy[rad/s],gz[rad/s],ax[m/s^2],ay[m/s^2],az[m/s^2]\n")
+    assert run(["tipover", "empty.csv", "header.csv", "stands.csv", "-m", "tilt"]) == 1
+    out, err = capsys.readouterr()
+    assert "stands.csv" in out and "empty.csv" in err and "header.csv" in err and "Traceback" not in err
+    assert run(["tipover", "fall.csv", "-m", "tilt", "--tare", "5,6"]) == 1
+    assert "tare: the robot moves by" in capsys.readouterr().err
+    assert run(["tipover", "fall.csv", "-m", "tilt", "--tare", "50,60"]) == 1
+    assert "no row between these seconds" in capsys.readouterr().err
+
+
+def test_nothing_but_nan_is_unknown_throughout(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    table = np.full((300, 4), np.nan)
+    poise.write(poise.Attitude.of(times(1.5), table), "nan.parquet")
+    assert run(["tipover", "nan.parquet", "--report", "--plot", "nan.png"]) == 0
+    assert "no alarm" in capsys.readouterr().err and Path("nan.png").exists()
+    (one,) = said(capsys, "nan.parquet")["results"]
+    assert one["events"] == [] and one["seconds"]["upright"] == 0.0 and one["least_margin_deg"] is None
+
+
+def test_the_optical_reference_of_a_real_trial_agrees(capsys: pytest.CaptureFixture[str]) -> None:
+    path = next(data_path("broad").glob("03_*.mat"))
+    assert run(["tipover", str(path), "--tare", "0,2", "--json"]) == 0
+    (one,) = json.loads(capsys.readouterr().out)["results"]
+    assert len(one["falls"]) >= 5 and one["missed"] == [] and one["false_per_hour"] == 0.0
