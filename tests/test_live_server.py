@@ -6,6 +6,7 @@ import asyncio
 import json
 import time
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import httpx
@@ -16,12 +17,16 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 import poise
 from live_helpers import METHOD, Running, ask, heard, made, rows_of, seen, send, serving, wait_for
+from poise.data.event import TipState
 from poise.live import frames
 from poise.live.access import Access, AccessError, parsed_tokens
 from poise.live.hub import Hub
 from poise.live.methods import Choice
 from poise.live.replay import Replay
 from poise.live.server import Options, Server, ServerError
+from poise.live.watching import Watch
+from poise.monitor import judge
+from poise.responses import Responses
 
 ALL, READ, DEVICE = "all-the-scopes-of-it", "may-only-read-of-it", "may-only-push-samples"
 
@@ -322,3 +327,47 @@ def test_a_busy_port_is_named(live: Running) -> None:
 def test_a_page_needs_no_token_but_holds_nothing(guarded: Running) -> None:
     answer = httpx.get(f"http://{guarded.address}/")
     assert answer.status_code == 200
+
+
+def test_a_device_that_tips_over_is_said_and_answered(tmp_path: Path) -> None:
+    lean = np.concatenate([np.zeros(200), np.linspace(0.0, 1.5, 100), np.full(100, 1.5)])  # rad, forward about x
+    rate = np.gradient(lean, 0.01)
+    zero = np.zeros_like(lean)
+    rows = np.column_stack(
+        [
+            np.arange(400) / 100,
+            -rate,
+            zero,
+            zero,
+            zero,
+            -9.81 * np.sin(lean),
+            9.81 * np.cos(lean),
+            *[np.full(400, np.nan)] * 3,
+        ]
+    )
+    config = tmp_path / "robot.toml"
+    config.write_text(
+        f'[responders.note]\ntype = "log"\nfile = "{tmp_path / "said.log"}"\n'
+        '[[stages]]\nname = "stop"\nstate = "tipping"\nfire = ["note"]\n'
+    )
+    watch = Watch(responses={"robot": Responses.from_toml(config)})
+    with serving(watch=watch) as live, live.viewer() as viewer, live.device("robot") as device:
+        ask(viewer, type="subscribe", rate=100)
+        send(device, rows, size=5)
+        states = []
+        while "UNKNOWN" not in states[1:]:  # it falls silent at the end
+            event = heard(viewer, "event")
+            if event["kind"] == "tip":
+                states.append(event["state"])
+                assert event["device"] == "robot"
+        record = live.call(lambda: live.hub.latest(live.hub.find("robot")).copy())
+    assert states[0] == "UPRIGHT"
+    assert "TIPPING" in states or "FALLEN" in states
+    assert record["tip"] == TipState.UNKNOWN
+    expected = judge(poise.estimate(poise.AdaptiveGain(), recording := as_recording(rows)), recording)
+    assert states[: len(expected.events)] == [event.state.name for event in expected.events]
+    assert "stop" in (tmp_path / "said.log").read_text()
+
+
+def as_recording(rows: NDArray[np.float64]) -> poise.Recording:
+    return poise.Recording(rows[:, 0], rows[:, 1:4], rows[:, 4:7], rows[:, 7:10])

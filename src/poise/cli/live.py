@@ -14,6 +14,7 @@ from poise.errors import PoiseError
 
 if TYPE_CHECKING:
     from poise.live.server import Options, Server
+    from poise.live.watching import Watch
 
 
 def live(
@@ -28,6 +29,8 @@ def live(
     allow_host: Annotated[tuple[str, ...], Parameter(negative="")] = (),
     record: Path | None = None,
     describe: Path | None = None,
+    tipover: Path | None = None,
+    respond: Annotated[tuple[str, ...], Parameter(negative="")] = (),
     max_rate: float = 5000.0,
     reading: Reading | None = None,
 ) -> int:
@@ -70,6 +73,11 @@ def live(
         told what is on the disk. After a crash the same command goes on where it was; `poise recover` just saves what is there.
     describe
         A TOML file that says what text lines or binary frames from a serial port, UDP or MQTT mean; see docs/live.md.
+    tipover
+        A TOML file with the tip-over monitor's parameters, as for `poise tipover`: every device is watched.
+    respond
+        `DEVICE=FILE.toml`: what answers when that device tips over, as for `poise respond`, with the monitor's parameters in
+        the same file. Repeat for more devices.
     max_rate
         Samples a second above which a device is cut off.
     """
@@ -79,7 +87,8 @@ def live(
             method,
             set_,
             (host, port, token, allow_host),
-            (record, describe),
+            (record, describe, tipover),
+            respond,
             max_rate,
             reading or Reading(),
         )
@@ -104,7 +113,8 @@ def _server(
     names: tuple[str, ...],
     settings: tuple[str, ...],
     where: Any,
-    files: tuple[Path | None, Path | None],
+    files: tuple[Path | None, Path | None, Path | None],
+    respond: tuple[str, ...],
     max_rate: float,
     reading: Reading,
 ) -> Server:
@@ -118,10 +128,10 @@ def _server(
     from poise.live.server import Server
     from poise.live.sources import source
 
-    record, describe = files
+    record, describe, tipover = files
     if not 1.0 <= max_rate <= 1e6:
         usage(f"--max-rate {max_rate}: expected samples a second, 1 to 1e6")
-    hub = Hub(method_choices(names, settings), max_rate)
+    hub = Hub(method_choices(names, settings), max_rate, _watch(tipover, respond))
     try:
         options = _options(*where)
         description = Description.read(describe) if describe is not None else None
@@ -135,6 +145,26 @@ def _server(
         return Server(hub, [each for each in found if each is not None], options, recorder)
     except (AccessError, DeviceError) as error:
         usage(str(error))
+
+
+def _watch(tipover: Path | None, respond: tuple[str, ...]) -> Watch | None:
+    if tipover is None and not respond:
+        return None
+    from poise.live.watching import Watch
+    from poise.monitor import from_table, read_settings
+    from poise.responses import Responses
+
+    usual = read_settings(tipover) if tipover is not None else None
+    own, responses = {}, {}
+    for text in respond:
+        device, equals, file = text.partition("=")
+        if not (device and equals and file) or device in responses:
+            usage(f"--respond {text!r}: expected DEVICE=FILE.toml, once a device")
+        responses[device] = Responses.from_toml(file)
+        table = responses[device].config.tipover
+        if table is not None:
+            own[device] = from_table(table, usual)
+    return Watch(usual, own, responses)
 
 
 def _options(host: str, port: int, tokens: tuple[str, ...], hosts: tuple[str, ...]) -> Options:

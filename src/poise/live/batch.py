@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from poise.data import flags as bits
 from poise.data.attitude import COLUMNS, QUAT, RATE, SIGMA, Attitude
-from poise.live.frames import ATTITUDE, NOT_MONITORED
+from poise.live.frames import ATTITUDE
 
 if TYPE_CHECKING:
     from poise.live.device import Device, Running
@@ -80,7 +80,7 @@ class Batch:
         found["quat"], found["rate"], found["sigma"] = table[:, QUAT], table[:, RATE], table[:, SIGMA]
         found["gyr"], found["acc"], found["mag"] = rows[:, 1:4], rows[:, 4:7], rows[:, 7:10]
         found["valid"] = (found["flags"] & np.uint32(bits.INVALID)) == 0
-        found["tip"] = NOT_MONITORED
+        found["tip"] = np.repeat([span.device.tip for span in spans], lengths)
         return found
 
 
@@ -120,16 +120,15 @@ class Newest:
         slots = np.array([span.run.slot for span in batch.spans])
         last = batch.last()
         last["flags_since"] |= self.records["flags_since"][slots]
-        last["tip"] = [span.device.tip for span in batch.spans]
         self.records[slots] = last
         self.change += 1
         self.versions[slots] = self.change
 
-    def unknown(self, slot: int, row: Attitude) -> None:
+    def unknown(self, slot: int, row: Attitude, tip: int) -> None:
         """Its device has fallen silent: *row* is what the stream says now."""
         record = self.records[slot]
         record["flags"] = record["flags_since"] = row.flags[0]
-        record["valid"] = bool(row.valid[0])
+        record["valid"], record["tip"] = bool(row.valid[0]), tip
         self.change += 1
         self.versions[slot] = self.change
 

@@ -15,6 +15,7 @@ from poise.estimators.engine import Stream
 from poise.live import frames
 from poise.live.clock import DeviceClock
 from poise.live.methods import Choice
+from poise.monitor import Monitor
 
 Floats = NDArray[np.float64]
 
@@ -91,6 +92,7 @@ class Device:
         """the number of the next new sample"""
         self.connected = 0
         """how many connections it has now"""
+        self.monitor: Monitor | None = None
         self.tip = frames.NOT_MONITORED
         self.to_restore: Any = None
         """a checkpoint and the samples since, of a recording that goes on"""

@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from poise.data.attitude import Attitude
+from poise.data.attitude import Attitude, Provenance
+from poise.data.event import TipEvent
 from poise.data.flags import INVALID
 from poise.errors import PoiseError
 from poise.estimators.engine import Stream
@@ -17,6 +18,7 @@ from poise.live.batch import Batch, Newest, Span
 from poise.live.device import Device, Running
 from poise.live.methods import Choice, startable, warmed
 from poise.live.waits import Waits
+from poise.live.watching import Watch, as_facts, as_text
 
 _EVENTS = 1000
 MOST_DEVICES = 10_000
@@ -30,12 +32,12 @@ class HubError(PoiseError):
 class Hub:
     """Devices by name, each with its methods; :meth:`tick` turns what has arrived into attitudes.
 
-    *methods* are what a new device runs. Everything happens in one thread: only compiling a method, which may take
-    seconds, is done in another, while the device's samples wait.
+    *methods* are what a new device runs, and *watch* looks whether it tips over. Everything happens in one thread: only
+    compiling a method, which may take seconds, is done in another, while the device's samples wait.
     """
 
-    def __init__(self, methods: tuple[Choice, ...], max_rate: float = 5000.0) -> None:
-        self.methods = methods
+    def __init__(self, methods: tuple[Choice, ...], max_rate: float = 5000.0, watch: Watch | None = None) -> None:
+        self.methods, self.watch = methods, watch
         self.max_rate = max_rate
         self.devices: dict[str, Device] = {}
         self.newest = Newest()
@@ -175,7 +177,9 @@ class Hub:
         batch = Batch.empty(rows, spans, out, wall)
         for span in spans:
             span.run.stream.update_rows(rows[span.rows], batch.table[span.out], batch.flags[span.out])
-        self._watch(batch, ready, now)
+        self._note(batch, ready, now)
+        if self.watch is not None:
+            self._judge(batch)
         self.newest.put(batch)
         for told in self.on_batch:
             told(batch)
@@ -183,7 +187,7 @@ class Hub:
         self.tick_cost += 0.1 * (time.perf_counter() - began - self.tick_cost)
         return batch
 
-    def _watch(self, batch: Batch, ready: list[Device], now: float) -> None:
+    def _note(self, batch: Batch, ready: list[Device], now: float) -> None:
         """What each device's health is told of the tick."""
         bad = (batch.flags & np.uint32(INVALID)) != 0
         invalid = np.add.reduceat(bad, [span.out.start for span in batch.spans])
@@ -195,6 +199,29 @@ class Hub:
                 self.event("back", device, f"{device.name} is back")
             device.health.ticked(now)
 
+    def _judge(self, batch: Batch) -> None:
+        """Each device's monitor looks at what its first method says."""
+        assert self.watch is not None
+        for span in batch.spans:
+            device = span.device
+            if span.run is not device.runs[0]:
+                continue
+            if device.monitor is None:
+                device.monitor = self.watch.monitor(device.name)
+            rows = batch.rows[span.rows]
+            attitude = Attitude.view(
+                rows[:, 0].copy(), batch.table[span.out], batch.flags[span.out], "arbitrary", Provenance()
+            )
+            self._tell(device, device.monitor.update(attitude, rows[:, 4:7]))
+
+    def _tell(self, device: Device, events: list[TipEvent]) -> None:
+        assert self.watch is not None
+        assert device.monitor is not None
+        device.tip = int(device.monitor.state)
+        for event in events:
+            self.event("tip", device, as_text(device.name, event), **as_facts(event))
+            self.watch.handle(device.name, event)
+
     def _hush(self, now: float) -> None:
         """Attitudes of devices that have fallen silent become unknown."""
         for device in self.devices.values():
@@ -202,11 +229,14 @@ class Hub:
             if device.runs and health.samples and not health.silent and now - health.heard > health.silence:
                 health.silent = True
                 health.silences += 1
+                since = max(now - health.heard, 0.06)  # a stream calls it silence from 0.05 s on
+                latest = device.runs[0].stream.latest
+                if device.monitor is not None and latest is not None:
+                    self._tell(device, device.monitor.check(float(latest.time[0]) + since))
                 for run in device.runs:
                     latest = run.stream.latest
                     if latest is not None:
-                        since = max(now - health.heard, 0.06)  # a stream calls it silence from 0.05 s on
-                        self.newest.unknown(run.slot, run.stream.check(float(latest.time[0]) + since))
+                        self.newest.unknown(run.slot, run.stream.check(float(latest.time[0]) + since), device.tip)
                 self.event("silent", device, f"{device.name} is silent: its attitude is unknown")
 
     def event(self, kind: str, device: Device | None, text: str, **facts: Any) -> None:

@@ -91,6 +91,8 @@ class Server:
             for number in (signal.SIGINT, signal.SIGTERM):
                 with suppress(NotImplementedError, RuntimeError, ValueError):
                     loop.add_signal_handler(number, self.stopping.set)
+            if self.hub.watch is not None:
+                self.hub.watch.open()
             if self.recorder is not None:
                 self.recorder.open(self.hub)
             beginning = self._spawn(self._begin())
@@ -104,6 +106,8 @@ class Server:
                     task.cancel()
                 await asyncio.gather(*self._tasks, return_exceptions=True)
                 self.hub.tick()
+                if self.hub.watch is not None:
+                    await asyncio.to_thread(self.hub.watch.close)
                 if self.recorder is not None:
                     await asyncio.to_thread(self.recorder.close)
 
@@ -137,6 +141,8 @@ class Server:
             await asyncio.sleep(min(max(4.0 * self.hub.tick_cost, _QUICKEST), _SLOWEST))
 
     async def _begin(self) -> None:
+        if self.hub.watch is not None:
+            await asyncio.to_thread(self.hub.watch.warm)
         for choice in self.hub.methods:
             await self._warm(choice)
         while (device := self.hub.next_to_restore()) is not None:
