@@ -96,6 +96,7 @@ class Device(asyncio.Protocol):
             self.transport.write(masked(payload, 0x8A))
         elif kind == 0x88:
             self.told = time.monotonic()
+            self.transport.write(masked(payload, 0x88))
         elif kind == 0x81:
             self.texts += 1
             if payload.startswith(b'{"type": "ack"'):
@@ -114,12 +115,16 @@ class Viewer(Device):
     def __init__(self) -> None:
         super().__init__()
         self.rows, self.late = 0, []
+        self.size, self.step = 1, 0.0
 
     def heard(self, kind: int, payload: bytes) -> None:
         if kind == 0x82:
             found = frames.records(payload)
             self.rows += len(found)
-            self.late.append(time.monotonic() - found["time"])
+            sent = (
+                found["time"] + (self.size - 1 - found["sequence"] % self.size) * self.step
+            )  # with the frame's last sample
+            self.late.append(time.monotonic() - sent)
         else:
             super().heard(kind, payload)
 
@@ -196,13 +201,14 @@ async def load(seconds: float, devices: int, rate: float, size: int, *options: s
     server = Served("--max-rate", "20000", *options)
     try:
         viewer = await watched(server)
+        viewer.size, viewer.step = size, 1.0 / (rate * size)
         found = [await joined(server.port, f"/ws/device/d{k}") for k in range(devices)]
         warm = await pushing(found, rate, size, 2.0)
         await drained(viewer, warm, 60.0)  # the method is being loaded
         viewer.late.clear()
         viewer.rows = 0
         cpu, rss, began = server.cpu(), server.rss(), time.monotonic()
-        sent = await pushing(found, rate, size, seconds, 1 << 20)
+        sent = await pushing(found, rate, size, seconds, 1_000_000)
         spent, grown = (server.cpu() - cpu) / (time.monotonic() - began), server.rss() - rss
         await drained(viewer, sent)
         answer = {"devices": devices, "frames_hz": rate, "samples_a_frame": size} | said(viewer, sent)
@@ -220,7 +226,7 @@ async def stalled(seconds: float) -> dict[str, Any]:
         await drained(viewer, await pushing(found, 100, 1, 1.0), 60.0)
         viewer.late.clear()
         viewer.rows = 0
-        sent = await pushing(found, 100, 1, seconds, 1 << 19)
+        sent = await pushing(found, 100, 1, seconds, 500_000)
         await drained(viewer, sent)
         before, rss = said(viewer, sent), server.rss()
         asleep = [await joined(server.port, "/ws/view") for _ in range(100)]
@@ -230,7 +236,7 @@ async def stalled(seconds: float) -> dict[str, Any]:
             each.transport.pause_reading()
         viewer.late.clear()
         viewer.rows = 0
-        sent = await pushing(found, 100, 1, 2 * seconds, 1 << 20)
+        sent = await pushing(found, 100, 1, 2 * seconds, 1_000_000)
         await drained(viewer, sent)
         after = said(viewer, sent)
         grown = server.rss() - rss

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import json
 import signal
 import socket
@@ -145,6 +146,7 @@ class Server:
             await asyncio.to_thread(self.hub.watch.warm)
         for choice in self.hub.methods:
             await self._warm(choice)
+        gc.freeze()  # a compiler's many objects stay: to go over them again and again would hold up ticks by 0.1 s
         while (device := self.hub.next_to_restore()) is not None:
             try:
                 streams = await asyncio.to_thread(rebuilt, device)
