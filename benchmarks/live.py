@@ -210,9 +210,15 @@ async def load(seconds: float, devices: int, rate: float, size: int, *options: s
         cpu, rss, began = server.cpu(), server.rss(), time.monotonic()
         sent = await pushing(found, rate, size, seconds, 1_000_000)
         spent, grown = (server.cpu() - cpu) / (time.monotonic() - began), server.rss() - rss
+        waits = (await asyncio.to_thread(http, server.port, "/healthz"))["wait_ms"]
         await drained(viewer, sent)
         answer = {"devices": devices, "frames_hz": rate, "samples_a_frame": size} | said(viewer, sent)
-        return answer | {"cores": round(spent, 2), "share": round(spent / CORES, 2), "rss_grown_mib": round(grown, 1)}
+        return answer | {
+            "in_the_server_ms": waits,
+            "cores": round(spent, 2),
+            "share": round(spent / CORES, 2),
+            "rss_grown_mib": round(grown, 1),
+        }
     finally:
         server.end()
 

@@ -10,6 +10,7 @@ import subprocess
 import time
 import tty
 from collections.abc import Iterator
+from contextlib import suppress
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -20,8 +21,10 @@ from numpy.typing import NDArray
 
 import poise
 from live_helpers import made, rows_of, serving, wait_for
+from poise.errors import PoiseError
 from poise.live import frames
 from poise.live.described import Decoder, Description
+from poise.live.device import Device
 from poise.live.devices import DeviceError
 from poise.live.mqtt import Mqtt
 from poise.live.serial_port import SerialPort
@@ -289,3 +292,46 @@ def test_a_speed_behind_a_replay() -> None:
         found = source(word, lambda path: RECORDING)
         assert found is not None
         assert found.name.startswith("replay of")
+
+
+def test_no_bytes_bring_a_decoder_down() -> None:
+    """Everything that is no sample is a FrameError: a datagram of anyone's must not end the server."""
+    random = np.random.default_rng(0)
+    seeds = [
+        frames.encoded(ROWS[:3], 7),
+        lines(ROWS[:3]),
+        b'{"time": [1.0, 1.1], "gyr": [[0,0,0],[0,0,0]], "acc": [[0,0,9],[0,0,9]], "sequence": 3}',
+        b'{"time": 1' + b"0" * 400 + b', "gyr": [0,0,0], "acc": [0,0,9]}',
+        b'{"time": {}, "gyr": "abc", "acc": true, "mag": [[[]]]}',
+        b'{"time": 1, "gyr": [0,0,0], "acc": [0,0,9], "sequence": 1e400}',
+    ]
+    decoders = [Decoder(), Decoder(Description.of(BINARY))]
+    live = live_device()
+    for turn in range(6000):
+        data = bytearray(seeds[turn % len(seeds)])
+        for _ in range(int(random.integers(0, 4))):
+            data[int(random.integers(0, len(data)))] = int(random.integers(0, 256))
+        data = data[: int(random.integers(0, len(data) + 1))] if random.random() < 0.3 else data
+        for decoder in decoders:
+            with suppress(PoiseError):
+                rows, sequence = decoder.message(bytes(data))
+                assert rows.shape[1] == 12
+                live.receive(rows, 0.0, sequence)
+            decoder.feed(bytes(data))
+        with suppress(PoiseError):
+            live.receive_frame(bytes(data), 0.0)
+
+
+def live_device() -> Device:
+    return Device("fuzzed", 0, "", {})
+
+
+def test_a_name_that_cannot_be_stops_nobody(sender: socket.socket) -> None:
+    udp = Udp("127.0.0.1", 0)
+    with serving(udp) as live:
+        to = bound(udp)
+        sender.sendto(b"@../../etc\n" + frames.encoded(ROWS[:10], 0), to)
+        sender.sendto(b"@fine\n" + frames.encoded(ROWS, 0), to)
+        same_end(live, "fine", RECORDING)
+        assert set(live.hub.devices) == {"fine"}
+        assert live.server.refused == 1

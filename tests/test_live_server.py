@@ -371,3 +371,17 @@ def test_a_device_that_tips_over_is_said_and_answered(tmp_path: Path) -> None:
 
 def as_recording(rows: NDArray[np.float64]) -> poise.Recording:
     return poise.Recording(rows[:, 0], rows[:, 1:4], rows[:, 4:7], rows[:, 7:10])
+
+
+def test_a_fault_of_ours_ends_the_server_loudly() -> None:
+    class Faulty(Exception):
+        pass
+
+    def fail(batch: object) -> None:
+        raise Faulty("ours")
+
+    with pytest.raises(Faulty), serving() as live:
+        live.hub.on_batch.append(fail)
+        with live.device("any") as device:
+            send(device, rows_of(made(0.5)))
+            wait_for(live.server.stopping.is_set)

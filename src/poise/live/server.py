@@ -76,6 +76,9 @@ class Server:
         self._frame = 0
         self._changed = False
         self._warming: set[Choice] = set()
+        self.refused = 0
+        """packets that no device could take"""
+        self._failure: BaseException | None = None
         self._tasks: set[asyncio.Task[None]] = set()
         hub.on_batch.append(self._to_viewers)
         hub.on_event.append(self._tell_event)
@@ -96,10 +99,10 @@ class Server:
                 self.hub.watch.open()
             if self.recorder is not None:
                 self.recorder.open(self.hub)
-            beginning = self._spawn(self._begin())
+            beginning = self.spawn(self._begin())
             await asyncio.wait((beginning,), timeout=_HEAD_START)
             for work in (self._ticking(), *map(self._feed, self.sources)):
-                self._spawn(work)
+                self.spawn(work)
             try:
                 await serve(self, sockets, ready)
             finally:
@@ -111,12 +114,21 @@ class Server:
                     await asyncio.to_thread(self.hub.watch.close)
                 if self.recorder is not None:
                     await asyncio.to_thread(self.recorder.close)
+        if self._failure is not None:
+            raise self._failure
 
-    def _spawn(self, work: Any) -> asyncio.Task[None]:
+    def spawn(self, work: Any) -> asyncio.Task[None]:
+        """Runs *work* beside; where it fails, which is a fault of ours, the server ends and :meth:`run` raises it."""
         task: asyncio.Task[None] = asyncio.get_running_loop().create_task(work)
         self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
+        task.add_done_callback(self._done)
         return task
+
+    def _done(self, task: asyncio.Task[None]) -> None:
+        self._tasks.discard(task)
+        if not task.cancelled() and (failure := task.exception()) is not None:
+            self._failure = failure
+            self.stopping.set()
 
     async def _ticking(self) -> None:
         due, forget, listed = 0.0, 0.0, 0.0
@@ -160,7 +172,7 @@ class Server:
             for each in device.wanted:
                 if isinstance(each, Choice) and each not in self._warming:
                     self._warming.add(each)
-                    self._spawn(self._warm(each))
+                    self.spawn(self._warm(each))
 
     async def _warm(self, choice: Choice) -> None:
         self._warming.add(choice)
@@ -175,15 +187,23 @@ class Server:
         """A source's packets to the hub; what goes wrong with it is an event, and other devices go on."""
         try:
             async for arrival in source.arrivals():
-                device = self.hub.device(arrival.device, source.name)
+                device = self.hub.devices.get(arrival.device)
                 try:
+                    device = self.hub.device(arrival.device, source.name)
                     device.receive(arrival.rows, time.monotonic(), arrival.sequence)
                 except PoiseError as problem:
-                    device.health.rejected += 1
-                    self.hub.event("refused", device, f"{device.name}: {problem}")
+                    self._refused(device, source.name, problem)
             self.hub.event("end", None, f"{source.name} has come to its end")
         except (PoiseError, OSError) as problem:
             self.hub.event("failed", None, f"{source.name}: {problem}")
+
+    def _refused(self, device: Device | None, source: str, problem: PoiseError) -> None:
+        """Counts what a device should not have sent; says so at the first and then every thousandth time."""
+        self.refused += 1
+        if device is not None:
+            device.health.rejected += 1
+        if (self.refused if device is None else device.health.rejected) % 1000 == 1:
+            self.hub.event("refused", device, f"{device.name if device else source}: {problem}")
 
     # -- what is said ---------------------------------------------------------------------------------------------
 
@@ -223,9 +243,9 @@ class Server:
         for each in list(self.device_sockets):
             number = durable.get(each.device.name)
             if condition is not None:
-                self._spawn(each.tell(type="recording", **condition))
+                each.note(type="recording", **condition)
             if number is not None:
-                self._spawn(each.tell(type="ack", next=number, lost=self.recorder.lost_of(each.device.name)))
+                each.note(type="ack", next=number, lost=self.recorder.lost_of(each.device.name))
         if condition is not None:
             self.hub.event("recording", None, condition["text"])
 

@@ -7,6 +7,7 @@ import json
 import time
 from collections import deque
 from collections.abc import MutableMapping
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -35,6 +36,7 @@ class DeviceSocket:
         self.device = server.hub.device(name, "websocket")
         self._allowance, self._filled = _BURST * server.hub.max_rate, time.monotonic()
         self._lock = asyncio.Lock()
+        self._news: dict[str, dict[str, Any]] = {}
 
     async def run(self, receive: Receive) -> None:
         device = self.device
@@ -89,6 +91,22 @@ class DeviceSocket:
             await self.tell(type="recording", **recorder.condition())
             await self.tell(type="ack", next=recorder.durable(name), lost=recorder.lost_of(name))
 
+    def note(self, **message: Any) -> None:
+        """Tells it soon; of each type only the newest waits, however slowly the device reads."""
+        idle = not self._news
+        self._news[message["type"]] = message
+        if idle:
+            self._server.spawn(self._tell_news())
+
+    async def _tell_news(self) -> None:
+        with suppress(OSError, RuntimeError):  # the connection is gone; `receive` says so, too
+            while self._news:
+                kind, message = next(iter(self._news.items()))
+                await self.tell(**message)
+                if self._news.get(kind) is message:  # else a newer one has come meanwhile
+                    del self._news[kind]
+        self._news.clear()
+
     async def tell(self, **message: Any) -> None:
         async with self._lock:
             await self._send({"type": "websocket.send", "text": json.dumps(message)})
@@ -141,7 +159,7 @@ class Viewer:
                     await self._push_every()
                 else:
                     await self._push_newest()
-        except Exception:  # the connection is gone; `receive` says so, too
+        except (OSError, RuntimeError):  # the connection is gone; `receive` says so, too
             return
 
     async def _push_every(self) -> None:

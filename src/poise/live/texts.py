@@ -43,7 +43,7 @@ def rows_of(values: dict[str, Any]) -> Floats:
     """(n, 12) rows of ``time`` (n,), ``gyr``, ``acc`` and ``mag`` (n, 3). Raises :class:`FrameError`."""
     try:
         many = samples(*(values[name] for name in ("time", "gyr", "acc", "mag")))
-    except RecordingError as problem:
+    except (RecordingError, OverflowError) as problem:
         raise FrameError(str(problem)) from None
     if not 0 < len(many["time"]) <= MOST_SAMPLES:
         raise FrameError(f"expected 1 to {MOST_SAMPLES} samples, found {len(many['time'])}")
