@@ -145,6 +145,11 @@ class Hub:
             told(device)
         self.event("heading", device, f"heading of {device.name} set: {forward} points north")
 
+    @property
+    def starting(self) -> bool:
+        """Whether samples wait for a method to be loaded, or for the streams of a recording that goes on."""
+        return any(not device.runs for device in self._waiting)
+
     def tick(self, now: float | None = None) -> Batch | None:
         """Runs every sample that has arrived through its device's methods; *now* is the host's monotonic clock, s."""
         now = time.monotonic() if now is None else now

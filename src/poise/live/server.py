@@ -101,15 +101,20 @@ class Server:
                 self.recorder.open(self.hub)
             beginning = self.spawn(self._begin())
             await asyncio.wait((beginning,), timeout=_HEAD_START)
-            for work in (self._ticking(), *map(self._feed, self.sources)):
-                self.spawn(work)
+            feeding = [self.spawn(self._feed(source)) for source in self.sources]
+            self.spawn(self._ticking())
             try:
                 await serve(self, sockets, ready)
             finally:
+                for task in feeding:
+                    task.cancel()
+                while self.hub.starting and self._failure is None:  # their samples wait for a method to be loaded
+                    await asyncio.sleep(0.02)
                 for task in list(self._tasks):
                     task.cancel()
                 await asyncio.gather(*self._tasks, return_exceptions=True)
-                self.hub.tick()
+                while self._failure is None and self.hub.tick() is not None:
+                    pass
                 if self.hub.watch is not None:
                     await asyncio.to_thread(self.hub.watch.close)
                 if self.recorder is not None:
