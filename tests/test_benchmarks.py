@@ -16,13 +16,14 @@ from helpers import wxyz
 from poise import AdaptiveGain, Attitude, Recording, TwoStage, estimate
 from poise.math import arrays
 from poise.peers import PEERS, installed
-from poise.simulation import PERFECT, Sensor, at_rest, forearm, measure
+from poise.simulation import PERFECT, Sensor, Triad, at_rest, forearm, measure
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
 
 import accuracy
 import scores
 import speed
+import worlds
 from scores import Score
 from stacked import Stacked
 from studies import block_means
@@ -244,3 +245,26 @@ def test_block_means_keep_the_centre() -> None:
     assert third.truth is not None
     assert recording.truth is not None
     np.testing.assert_array_equal(third.truth.quat[0], recording.truth.quat[1])
+
+
+# -- worlds -----------------------------------------------------------------------------------------------------------
+
+
+def test_the_lag_of_an_output_behind_the_motion_is_found() -> None:
+    time = np.arange(2000) / 200
+    turned = arrays.turn_about_up(np.sin(3 * time) + 0.5 * np.sin(11 * time))
+    late = arrays.turn_about_up(np.sin(3 * (time - 0.0105)) + 0.5 * np.sin(11 * (time - 0.0105)))
+    errors = [worlds._rmse(late, turned, 200 * shift) for shift in np.arange(0.0, 0.0301, 0.0005)]
+    assert int(np.argmin(errors)) == 21
+    assert errors[21] < 0.05
+    assert errors[0] > 1.0
+
+
+def test_a_sensor_without_some_of_its_errors_keeps_the_others() -> None:
+    whole = worlds.part(worlds.PART)
+    assert whole.mag is not None
+    no_iron = worlds.without(whole, "iron")
+    assert no_iron.mag is not None
+    assert (no_iron.mag.bias, no_iron.mag.noise, no_iron.gyr) == (0.0, whole.mag.noise, whole.gyr)
+    assert worlds.without(whole, "gyroscope").gyr == Triad()
+    assert worlds.without(whole, "accelerometer").mag == whole.mag

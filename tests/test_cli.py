@@ -45,7 +45,9 @@ def test_help_needs_no_compiler() -> None:
     assert result.stdout.rstrip().endswith("[]")
 
 
-@pytest.mark.parametrize("command", ["estimate", "evaluate", "compare", "plot", "doctor", "sniff", "methods", "demo"])
+@pytest.mark.parametrize(
+    "command", ["estimate", "evaluate", "compare", "plot", "doctor", "sniff", "methods", "demo", "simulate"]
+)
 def test_every_command_explains_itself(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run([command, "--help"]) == 0
     text = capsys.readouterr().out

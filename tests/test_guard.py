@@ -113,12 +113,49 @@ def test_stamps_of_zero_for_a_while_lose_no_rotation() -> None:
     assert away_deg(attitude).max() < 0.1
 
 
-def test_a_clock_put_forward_is_a_gap() -> None:
-    attitude = poise.estimate(METHOD, changed(time=clean().time + 3600.0 * (np.arange(len(clean())) >= AT)))
+@pytest.mark.parametrize("field", [True, False])
+def test_a_clock_put_forward_loses_nothing_where_the_samples_go_on(field: bool) -> None:
+    recording = changed(time=clean().time + 3600.0 * (np.arange(len(clean())) >= AT))
+    recording = recording if field else replace(recording, mag=np.full_like(recording.mag, np.nan))
+    attitude = poise.estimate(METHOD, recording)
+    assert list(flagged(attitude, Flag.CLOCK_JUMP)) == [AT]
+    assert not len(flagged(attitude, Flag.GAP))
+    assert not field or away_deg(attitude).max() < 0.02
+    assert attitude.valid.all()
+
+
+@pytest.mark.parametrize("lost", [130, 1000])
+def test_rows_lost_for_long_are_a_gap(lost: int) -> None:
+    kept = np.setdiff1d(np.arange(len(clean())), np.arange(AT, AT + lost))
+    attitude = poise.estimate(METHOD, clean()[kept])
     assert list(flagged(attitude, Flag.GAP)) == [AT]
     assert attitude.flags[AT] & Flag.LOST
     assert attitude.valid[AT + 500 :].all()
-    assert away_deg(attitude)[AT + 1000 :].max() < 5.0
+    assert away_deg(attitude, kept)[AT + 1000 :].max() < 5.0
+
+
+def test_at_rest_without_magnetometer_an_hour_is_a_gap() -> None:
+    """Who knows what it was turned by meanwhile."""
+    recording = changed(
+        time=clean().time + 3600.0 * (np.arange(len(clean())) >= 300), mag=np.full((len(clean()), 3), np.nan)
+    )
+    assert list(flagged(poise.estimate(METHOD, recording), Flag.GAP)) == [300]
+
+
+@pytest.mark.parametrize("method", [METHOD, poise.SelfCalibrating()])
+def test_stamps_that_scatter_about_an_even_pace_are_followed_slowly(method: Any) -> None:
+    rng, period = np.random.default_rng(4), 1.0 / RATE
+    true = poise.estimate(method, clean()).quat
+    for stamped in (clean().time + rng.uniform(-0.2, 0.2, len(clean())) * period, np.round(clean().time, 2)):
+        attitude = poise.estimate(method, changed(time=stamped))
+        assert np.degrees(arrays.angle(arrays.multiply(arrays.conjugate(true), attitude.quat)))[300:].max() < 0.5
+        assert attitude.valid.all()
+
+
+def test_samples_that_come_unevenly_keep_their_stamps() -> None:
+    """Every second row in five left out: steps of one and two periods, none of them an error of the clock."""
+    kept = np.flatnonzero(np.arange(len(clean())) % 5 != 1)
+    assert away_deg(poise.estimate(METHOD, clean()[kept]), kept).max() < 1.0
 
 
 def test_stamps_in_batches_lose_no_rotation() -> None:
@@ -167,9 +204,19 @@ def test_stamps_in_milliseconds_are_named_live_too() -> None:
 
 
 def test_all_stamps_the_same_is_no_time_at_all() -> None:
-    attitude = poise.estimate(METHOD, changed(time=np.zeros(len(clean()))))
+    with pytest.raises(RecordingError, match=r"time: all 6000 stamps are 7, .*at_rate"):
+        changed(time=np.full(len(clean()), 7.0))
+    stream, few = poise.Stream(METHOD), clean()[:40]
+    attitude = stream.update(Packet(np.full(40, 7.0), few.gyr, few.acc, few.mag))
     assert (attitude.flags[1:] & Flag.TIME_DISORDER).all()
     assert not attitude.valid[30:].any()
+
+
+def test_a_rate_of_zero_amid_a_turn_is_no_measurement() -> None:
+    row = int(np.argmax(np.linalg.norm(clean().gyr, axis=1)))
+    attitude = poise.estimate(METHOD, with_rows("gyr", row, 0.0))
+    assert list(flagged(attitude, Flag.GYR_IGNORED)) == [row]
+    assert away_deg(attitude).max() < 0.1
 
 
 # -- samples ----------------------------------------------------------------------------------------------------------

@@ -18,6 +18,7 @@ from poise.cli.methods import methods
 from poise.cli.plot import plot
 from poise.cli.recover import recover
 from poise.cli.respond import respond
+from poise.cli.simulate import simulate
 from poise.cli.sniff import sniff
 from poise.cli.tipover import tipover
 
@@ -46,6 +47,7 @@ app.command(live)
 app.command(recover)
 app.command(methods)
 app.command(demo)
+app.command(simulate)
 
 
 def main() -> None:

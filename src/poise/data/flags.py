@@ -66,7 +66,10 @@ SENTENCES: dict[Flag, str] = {
     Flag.MAG_CLIPPED: "the magnetometer is at the end of its range: left out",
     Flag.CLOCK_JUMP: "the clock was set: the usual interval is taken",
     Flag.JITTER: "a step between stamps of less than half or more than twice the usual",
-    Flag.UNSETTLED: "after rotation that was not measured: the attitude may be off by more than 6 degrees, and is settling",
+    Flag.UNSETTLED: (
+        "after rotation that was not measured, or with a bias that turned out wrong: "
+        "the attitude may be off by more than 6 degrees, and is settling"
+    ),
     Flag.CORRECTION_FORCED: "the correction stood out from its history: the preset gain was forced",
 }
 

@@ -46,6 +46,8 @@ class Sample(NamedTuple):
     """s that the accelerometer's sample stands for: since the one before; dt where it is as fast as the gyroscope"""
     mag_dt: float
     """s that the magnetometer's sample stands for"""
+    turn_variance: float
+    """rad² about each axis: how far the body may have turned otherwise than *gyr* says; 0 where all of dt was measured"""
 
 
 class Output(NamedTuple):

@@ -18,6 +18,7 @@ from poise.math import arrays
 Floats = NDArray[np.float64]
 
 STANDARD_GRAVITY = 9.80665
+_ALIKE = 50  # steps of 0: more than any packet of samples with one stamp
 _SLOWEST = 0.5  # s: no gyroscope is read less often; a larger median step means stamps in another unit
 _EARLIEST = 0.5  # s before the first gyroscope instant: an older sample says nothing of it
 _ROWS = ("time", "gyr", "acc", "mag", "acc_age", "mag_age")
@@ -289,6 +290,11 @@ def check_unit_of_time(time: Floats, even: bool = False) -> None:
         steps = np.diff(time)
     if even and not (len(steps) > 2 and steps.min() > 0.0 and steps.max() < 3.0 * steps.min()):
         return
+    if len(steps) >= _ALIKE and not (np.abs(steps) > 0.0).any():
+        raise RecordingError(
+            f"time: all {len(time)} stamps are {time[0]:g}, so that no rate of turn gives an angle; "
+            "give the stamps in s, or the samples per second in their place (Recording.at_rate, --rate)"
+        )
     if np.sum(steps < 0) > max(2, 0.5 * len(steps)):
         raise RecordingError(f"time: {np.sum(steps < 0)} of {len(steps)} steps go backwards; reverse the rows")
     steps = steps[(steps > 0) & (steps < 1e300)]  # the median's mean of two must not overflow

@@ -44,7 +44,7 @@ def _write(table: Floats, i: int, column: int, v: Vec3) -> None:
 @compiled
 def _sample(rows: Floats, i: int, dt: float) -> Sample:
     gyr, acc, mag = _vector(rows, i, GYR), _vector(rows, i, ACC), _vector(rows, i, MAG)
-    return Sample(dt, gyr, acc, mag, float(rows[i, ACC_AGE]), float(rows[i, MAG_AGE]), dt, dt)
+    return Sample(dt, gyr, acc, mag, float(rows[i, ACC_AGE]), float(rows[i, MAG_AGE]), dt, dt, 0.0)
 
 
 @entry

@@ -40,10 +40,14 @@ restart = dispatched("restart", default=_plain_restart)
 def resting_sample(attitude: Quat, declination: float) -> Sample:
     """What a perfect sensor at rest would measure: a method started from it starts at *attitude*."""
     field = Vec3(20.0 * sin(declination), 20.0 * cos(declination), -40.0)  # µT; magnetic north, pointing down
-    return Sample(0.0, ZERO, 9.80665 * up_in_body(attitude), rotate(conjugate(attitude), field), 0.0, 0.0, 0.0, 0.0)
+    return Sample(
+        0.0, ZERO, 9.80665 * up_in_body(attitude), rotate(conjugate(attitude), field), 0.0, 0.0, 0.0, 0.0, 0.0
+    )
 
 
 @compiled
 def with_sensors(sample: Sample, gyr: Vec3, acc: Vec3, mag: Vec3) -> Sample:
     """The same instant with other sensor values."""
-    return Sample(sample.dt, gyr, acc, mag, sample.acc_age, sample.mag_age, sample.acc_dt, sample.mag_dt)
+    return Sample(
+        sample.dt, gyr, acc, mag, sample.acc_age, sample.mag_age, sample.acc_dt, sample.mag_dt, sample.turn_variance
+    )  # fmt: skip

@@ -19,7 +19,7 @@ from poise.estimators.guard.levelling import (
 )
 from poise.estimators.guard.look import NOTHING, Look, acc_limits, common, examined, gyr_limits, mag_limits, plain
 from poise.estimators.guard.samples import Channel, change, fresh, taken
-from poise.estimators.guard.stamps import Pace, counted_on
+from poise.estimators.guard.stamps import UNKNOWN, Pace, counted_on
 from poise.estimators.protocol import output, restart, resting_sample, start, step, with_sensors
 from poise.math.compiled import compiled
 from poise.math.quaternions import IDENTITY, Quat, up_in_body
@@ -103,7 +103,7 @@ class Guard(NamedTuple):
         field = mag if has_mag else ZERO
         return State(
             inner, fresh(gyr, gyr_limits(self)), fresh(acc if seen else ZERO, acc_limits(self)),
-            fresh(field, mag_limits(self, field)), Pace(0.0, 0.0, 0.0, 0, 0), NOT_YET, 0.0, False,
+            fresh(field, mag_limits(self, field)), UNKNOWN, NOT_YET, 0.0, False,
             seen, aligned, False, False, 0.0, 0.0, 0.0, 0.0, 0.0, flags,
         )  # fmt: skip
 
@@ -146,7 +146,7 @@ class Guard(NamedTuple):
 
         Doubt is part of sigma. While the method waits to be started anew, what it says stands still.
         """
-        seen = Sample(state.dt, state.gyr.value, ABSENT, ABSENT, 0.0, 0.0, state.dt, state.dt)
+        seen = Sample(state.dt, state.gyr.value, ABSENT, ABSENT, 0.0, 0.0, state.dt, state.dt, 0.0)
         out = output(self.method, state.inner, seen)
         attitude = out.attitude if state.started else Quat(ABSENT.x, ABSENT.x, ABSENT.x, ABSENT.x)
         sigma = out.sigma

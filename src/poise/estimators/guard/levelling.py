@@ -54,7 +54,7 @@ def mean_of(levelling: Levelling, sample: Sample) -> Sample:
     acc = rotate(back, levelling.force / levelling.time)
     mag = rotate(back, levelling.field / levelling.time) if dot(levelling.field, levelling.field) > 0.0 else sample.mag
     acc = acc if dot(acc, acc) > 1e-6 else sample.acc
-    return Sample(sample.dt, sample.gyr, acc, mag, 0.0, 0.0, levelling.time, levelling.time)
+    return Sample(sample.dt, sample.gyr, acc, mag, 0.0, 0.0, levelling.time, levelling.time, 0.0)
 
 
 @compiled

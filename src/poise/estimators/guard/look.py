@@ -36,13 +36,14 @@ from poise.estimators.guard.samples import (
     stirred,
     usual,
 )
-from poise.estimators.guard.stamps import Pace, evenly, timed
+from poise.estimators.guard.stamps import UNKNOWN, Pace, evenly, timed
 from poise.math.compiled import compiled
-from poise.math.vectors import ABSENT, ZERO, Vec3, cross, norm, present, within
+from poise.math.vectors import ABSENT, ZERO, Vec3, cross, dot, norm, present, within
 
 if TYPE_CHECKING:
     from poise.estimators.guard.guard import Guard, State
 
+_TURNING = 0.5  # rad/s about one axis at least: such a rate is not met again by chance
 _SURE = 0.01  # rad of doubt: no longer worth a thought
 
 _LEFT = 0.1  # of the doubt of a few rows that a straight line between their neighbours has made good
@@ -70,7 +71,7 @@ class Look(NamedTuple):
 
 _EMPTY = fresh(ZERO, Limits(0.0, 0.0, 0.0, 0.0))
 NOTHING = Look(
-    _EMPTY, _EMPTY, _EMPTY, Pace(0.0, 0.0, 0.0, 0, 0), Sample(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, 0.0, 0.0),
+    _EMPTY, _EMPTY, _EMPTY, UNKNOWN, Sample(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, 0.0, 0.0, 0.0),
     False, False, False, False, 0.0, 0.0, 0.0, False, 0.0, 0,
 )  # fmt: skip
 
@@ -91,6 +92,7 @@ def common(guard: Guard, state: State, sample: Sample) -> bool:
         and field
         and evenly(state.pace, sample.dt, guard.gap)
         and usual(gyr, sample.gyr, change(gyr, sample.gyr), gyr_limits(guard))
+        and not _dropped(gyr, sample.gyr)
         and usual(acc, sample.acc, change(acc, sample.acc), acc_limits(guard))
     )
 
@@ -100,7 +102,7 @@ def plain(guard: Guard, state: State, sample: Sample) -> Sample:
     """A common row as the method may see it."""
     dt, field = sample.dt, sample.mag if present(sample.mag) else ABSENT
     return Sample(
-        dt, sample.gyr, sample.acc, field, sample.acc_age, sample.mag_age, dt, min(state.mag_absent + dt, guard.gap)
+        dt, sample.gyr, sample.acc, field, sample.acc_age, sample.mag_age, dt, min(state.mag_absent + dt, guard.gap), 0.0
     )  # fmt: skip
 
 
@@ -109,11 +111,13 @@ def examined(guard: Guard, state: State, sample: Sample) -> Look:
     """A row that is not a common one: its stamp and each of its samples is judged."""
     gyr, acc, mag = state.gyr, state.acc, state.mag
     by_gyr, by_acc, by_mag = change(gyr, sample.gyr), change(acc, sample.acc), change(mag, sample.mag)
-    row = timed(state.pace, sample.dt, by_gyr == 0.0 and not by_acc > 0.0 and not by_mag > 0.0, guard.gap)
+    goes_on = sample.dt > guard.longest_loss and _continues(state, sample.gyr, by_gyr, by_acc, by_mag)
+    repeated = by_gyr == 0.0 and not by_acc > 0.0 and not by_mag > 0.0
+    row = timed(state.pace, sample.dt, repeated, goes_on, guard.gap, guard.longest_loss)
     dt, flags = row.dt, row.flags
     if dt == 0.0:  # no time can be given to it: nothing moves, and too many of them lose the attitude
         lost = state.lost or row.pace.held > guard.longest_disorder
-        nothing = Sample(0.0, gyr.value, ABSENT, ABSENT, 0.0, 0.0, 0.0, 0.0)
+        nothing = Sample(0.0, gyr.value, ABSENT, ABSENT, 0.0, 0.0, 0.0, 0.0, 0.0)
         return Look(
             gyr, acc, mag, row.pace, nothing, False, False, False, state.mag_seen,
             state.gyr_absent, state.acc_absent, state.mag_absent, lost, state.doubt, flags,
@@ -127,6 +131,7 @@ def examined(guard: Guard, state: State, sample: Sample) -> Look:
     # A jump of the rate is an angular acceleration, which an accelerometer 1 cm off the axis feels
     felt = max(0.1 * guard.gravity, 0.01 * sqrt(by_gyr) / dt)
     spike = jumped(gyr, by_gyr, gyr_age, usual_step, of_gyr) and not stirred(acc, by_acc, felt)
+    spike = spike or _dropped(gyr, sample.gyr)
     found = judged(gyr, sample.gyr, gyr_age, spike, not still, still, guard.stuck_time, of_gyr)
     gyr = found.channel
     has_gyr = present(found.value)
@@ -159,11 +164,6 @@ def examined(guard: Guard, state: State, sample: Sample) -> Look:
     silent = mag_absent > max(guard.mag_loss, 3.0 * mag.every)
     flags |= MAG_MISSING if mag_seen and guard.follows_mag and silent else 0
     rate = gyr.value
-    clean = Sample(
-        dt, _over_loss(guard, state, rate, dt, usual_step) if has_gyr else rate,
-        sample.acc if has_acc else ABSENT, sample.mag if has_mag else ABSENT, sample.acc_age, sample.mag_age,
-        min(acc_age, guard.gap), min(mag_age, guard.gap),
-    )  # fmt: skip
 
     # How far it may have turned unmeasured
     doubt, lost = state.doubt, state.lost
@@ -178,14 +178,23 @@ def examined(guard: Guard, state: State, sample: Sample) -> Look:
         hidden = 0.25 * gyr.most * dt
     short = flags & GAP == 0 and gyr_verdict != STUCK and 0.0 < gyr_absent <= 0.25 * guard.gap
     turned = hidden == 0.0 or short
+    variance = _of_line(state, by_gyr, dt, usual_step) if has_gyr else 0.0
     if hidden > 0.0:
         doubt = min(doubt + hidden, pi)
+        if not short:  # of one run of rows the errors add up; a short one may yet be made good
+            made_up = 0.0 < state.gyr_absent <= 0.25 * guard.gap
+            variance = doubt * doubt - (0.0 if made_up else min(state.doubt, doubt) ** 2)
         lost = lost or doubt > guard.lost_doubt
     elif doubt > 0.0 and has_acc:
         doubt = doubt * guard.settle_time / (guard.settle_time + dt) if doubt > _SURE else 0.0
     lost = lost or state.pace.held > guard.longest_disorder
     if not state.started:  # nothing that could be lost
         doubt, lost = 0.0, False
+    clean = Sample(
+        dt, _over_loss(guard, state, rate, dt, usual_step) if has_gyr else rate,
+        sample.acc if has_acc else ABSENT, sample.mag if has_mag else ABSENT, sample.acc_age, sample.mag_age,
+        min(acc_age, guard.gap), min(mag_age, guard.gap), variance,
+    )  # fmt: skip
     usable = has_acc and has_gyr
     goes_on = state.started and not lost and (state.aligned or not has_mag or not guard.follows_mag)
     flags |= UNSETTLED if goes_on and doubt > guard.valid_doubt else 0
@@ -193,6 +202,30 @@ def examined(guard: Guard, state: State, sample: Sample) -> Look:
         gyr, acc, mag, row.pace, clean, goes_on, usable, turned, mag_seen,
         gyr_absent, acc_absent, mag_absent, lost, doubt, flags,
     )  # fmt: skip
+
+
+@compiled
+def _dropped(gyr: Channel, rate: Vec3) -> bool:
+    """Whether a rate is zero to the last bit that was none the row before: a driver's answer where it had none."""
+    return dot(rate, rate) == 0.0 and not within(gyr.value, REST_RATE)
+
+
+@compiled
+def _continues(state: State, rate: Vec3, by_gyr: float, by_acc: float, by_mag: float) -> bool:
+    """Whether the samples go on from those before as if no time had passed: then it was the clock that jumped.
+
+    At rest without a magnetometer the heading could have changed meanwhile.
+    """
+    known = state.mag_absent == 0.0 and state.mag_seen
+    by_field = not stirred(state.mag, by_mag, 0.0) if known else not within(rate, _TURNING)
+    return (
+        state.plain
+        and by_field
+        and by_gyr - by_gyr == 0.0
+        and by_acc - by_acc == 0.0
+        and not stirred(state.gyr, by_gyr, 0.0)
+        and not stirred(state.acc, by_acc, 0.0)
+    )
 
 
 @compiled
@@ -207,6 +240,13 @@ def _over_loss(guard: Guard, state: State, rate: Vec3, dt: float, usual_step: fl
     if usual_step > 0.0 and 1.5 * usual_step < dt <= guard.gap:
         return rate + (0.5 * (dt - usual_step) / dt) * (before - rate)
     return rate
+
+
+@compiled
+def _of_line(state: State, by_gyr: float, dt: float, usual_step: float) -> float:
+    """rad²: how well a straight line between two rates tells the turn between them: to a third of their difference."""
+    missing = state.gyr_absent if state.gyr_absent > 0.0 else max(dt - usual_step, 0.0)
+    return 0.1 * by_gyr * missing * missing if usual_step > 0.0 and missing > 0.5 * usual_step else 0.0
 
 
 @compiled

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import floor
 from typing import NamedTuple
 
 from poise.data.flags import CLOCK_JUMP, GAP, JITTER, TIME_DISORDER
@@ -11,6 +12,13 @@ SHORTEST = 1e-7  # s: a noise density over no time at all would overflow
 _LONGEST = 1e12
 _SHARE = 0.02  # of a new step in the usual one: that of the last 50 rows or so
 _MOST = 0.1  # of the usual step: a longer one counts as that much longer, for a lost row is not a slower sensor
+_FOLLOW, _FOLLOW_PACKETS = 0.01, 0.0005  # of what stamps that scatter are off, row by row
+_SCATTER = 4e-4  # (usual step)²: 2 % of it, squared; less is not worth a thought
+_TURNS_BACK = -0.3  # correlation of successive steps. −0.5 where the stamps scatter, and 0 where the samples do
+_FARTHEST = 40.0  # steps
+_OFTEN = 0.005  # of a new row in what is known of the scatter
+_LONG = 5000.0  # rows whose mean step is that of stamps that scatter
+_AT_ONCE = 0.3  # of the rows have no stamp of their own: they come in packets
 
 
 class Pace(NamedTuple):
@@ -21,6 +29,14 @@ class Pace(NamedTuple):
     back: float  # s that the clock was set back; should it come back to its old time, that is no gap
     waiting: int  # rows since the last stamp that rose
     held: int  # rows in a row that no time was given to
+    off: float  # of the last step from the usual one, in usual steps
+    scatter: float  # mean square of that
+    turns: float  # mean product with the one before
+    at_once: float  # share of the rows without a stamp of their own
+    rows: float  # that this is known from, counted up to 5000
+
+
+UNKNOWN = Pace(0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class Timed(NamedTuple):
@@ -34,42 +50,75 @@ class Timed(NamedTuple):
 @compiled
 def evenly(pace: Pace, dt: float, gap: float) -> bool:
     """Whether a step is an ordinary one, about the usual, and nothing is left to be paid back."""
-    return 0.5 * pace.step < dt < 1.5 * pace.step and SHORTEST < dt <= gap and pace.ahead == 0.0 and pace.waiting == 0
+    return (
+        0.5 * pace.step < dt < 1.5 * pace.step
+        and SHORTEST < dt <= gap
+        and pace.ahead == 0.0
+        and pace.waiting == 0
+        and not _scattered(pace)
+    )
 
 
 @compiled
 def counted_on(pace: Pace, dt: float) -> Pace:
     """The pace after an ordinary step."""
-    return Pace(pace.step + _SHARE * min(dt - pace.step, _MOST * pace.step), 0.0, pace.back, 0, 0)
+    step = pace.step + _SHARE * (dt - pace.step)
+    off = dt / pace.step - 1.0
+    scatter, turns = pace.scatter, pace.turns
+    return Pace(
+        step, 0.0, pace.back, 0, 0, off, scatter + _OFTEN * (off * off - scatter),
+        turns + _OFTEN * (off * pace.off - turns), (1.0 - _SHARE) * pace.at_once, min(pace.rows + 1.0, _LONG),
+    )  # fmt: skip
 
 
 @compiled
-def timed(pace: Pace, dt: float, repeated: bool, gap: float) -> Timed:
-    """The time that a row stands for; *repeated*: it is the very row before, so that it may have been sent twice.
+def _scattered(pace: Pace) -> bool:
+    """Whether the stamps scatter and the samples do not: a stamp that is late makes one step long and the next one short."""
+    return pace.at_once > _AT_ONCE or (pace.scatter > _SCATTER and pace.turns < _TURNS_BACK * pace.scatter)
 
-    A row without a stamp of its own still is a sample: it is taken to last the usual step, and that is set off against
-    the stamps that follow. So stamps that come in batches, swapped rows and a clock that stands still lose no rotation.
+
+@compiled
+def timed(pace: Pace, dt: float, repeated: bool, goes_on: bool, gap: float, longest: float) -> Timed:
+    """The time that a row stands for.
+
+    *repeated*: it is the very row before, so that it may have been sent twice; *goes_on*: the samples go on from the
+    row before as if no time had passed. A row without a stamp of its own still is a sample: it is taken to last the
+    usual step, and that is set off against the stamps that follow. So stamps that come in batches, swapped rows and a
+    clock that stands still lose no rotation. Stamps that scatter about an even pace are followed slowly.
     """
     usual = pace.step
     if not SHORTEST < dt < _LONGEST:  # NaN too
         back = min(-dt, _LONGEST) if dt < 0.0 else 0.0
         waiting = pace.waiting + 1
         if 0.0 < back <= gap:  # an older row, late: what it measured is past, and the clock goes on from its stamp
-            return Timed(Pace(usual, pace.ahead + back, pace.back, pace.waiting, pace.held + 1), 0.0, TIME_DISORDER)
+            held = _with(pace, usual, pace.ahead + back, pace.back, pace.waiting, pace.held + 1)
+            return Timed(held, 0.0, TIME_DISORDER)
         if back > gap:  # the clock was set back: nothing can be set off against it any more
-            flags = TIME_DISORDER | CLOCK_JUMP
-            return Timed(Pace(usual, 0.0, min(pace.back + pace.ahead + back + usual, _LONGEST), 0, 0), usual, flags)
+            kept = min(pace.back + max(pace.ahead, 0.0) + back + usual, _LONGEST)
+            return Timed(_with(pace, usual, 0.0, kept, 0, 0), usual, TIME_DISORDER | CLOCK_JUMP)
         if repeated or usual == 0.0:
-            return Timed(Pace(usual, pace.ahead, pace.back, waiting, pace.held + 1), 0.0, TIME_DISORDER)
-        return Timed(Pace(usual, pace.ahead + usual, pace.back, waiting, 0), usual, TIME_DISORDER)
+            return Timed(_with(pace, usual, pace.ahead, pace.back, waiting, pace.held + 1), 0.0, TIME_DISORDER)
+        return Timed(_without_stamp(pace, waiting), usual, TIME_DISORDER)
 
     left, kept, flags = dt - pace.ahead, pace.back, 0
+    if dt > longest and goes_on and usual > 0.0:
+        return Timed(_with(pace, usual, 0.0, 0.0, 0, 0), usual, CLOCK_JUMP)
+    if dt <= gap and usual > 0.0 and _scattered(pace):
+        in_packets = pace.at_once > _AT_ONCE
+        rows = 1.0 if in_packets else max(floor(left / usual + 0.5), 1.0)
+        follow = max(_FOLLOW_PACKETS if in_packets else _FOLLOW, 1.0 / (pace.rows + 1.0))
+        off = min(max(left - rows * usual, -_FARTHEST * usual), _FARTHEST * usual)
+        given = rows * usual + follow * off
+        if abs(given - left) <= gap:
+            counted = pace.waiting + 1.0 if in_packets else max(floor(dt / usual + 0.5), 1.0)
+            usual += (dt - counted * usual) / max(pace.rows if in_packets else min(pace.rows, 500.0), counted)
+            return Timed(_after(pace, usual, given - left, kept, dt), given, 0)
     mean = dt / (pace.waiting + 1.0)
     if mean <= gap:
         share = min(_SHARE * (pace.waiting + 1.0), 1.0)
         usual = usual + share * min(mean - usual, _MOST * usual) if usual > 0.0 else mean
     if kept > 0.0 and dt > gap and 0.0 < left - kept <= gap:  # the clock is back at the time it had
-        return Timed(Pace(usual, 0.0, 0.0, 0, 0), left - kept, CLOCK_JUMP)
+        return Timed(_with(pace, usual, 0.0, 0.0, 0, 0), left - kept, CLOCK_JUMP)
     ahead = 0.0
     if pace.ahead > 0.0:
         least = 0.5 * usual
@@ -81,4 +130,33 @@ def timed(pace: Pace, dt: float, repeated: bool, gap: float) -> Timed:
         flags |= GAP
     elif usual > 0.0 and not 0.5 * usual < left < 2.0 * usual:
         flags |= JITTER
-    return Timed(Pace(usual, ahead, kept, 0, 0), left, flags)
+    return Timed(_after(pace, usual, ahead, kept, dt), left, flags)
+
+
+@compiled
+def _with(pace: Pace, step: float, ahead: float, back: float, waiting: int, held: int) -> Pace:
+    """What is known of the scatter of the stamps stays."""
+    return Pace(step, ahead, back, waiting, held, pace.off, pace.scatter, pace.turns, pace.at_once, pace.rows)
+
+
+@compiled
+def _after(pace: Pace, step: float, ahead: float, back: float, dt: float) -> Pace:
+    """The pace after a stamp that rose by *dt*: lost rows are no scatter."""
+    share = max(_SHARE, 1.0 / (pace.rows + 1.0))
+    counted = max(_OFTEN, 1.0 / (pace.rows + 1.0)) if dt < 1.5 * step else 0.0
+    off = dt / step - 1.0 if counted > 0.0 else 0.0
+    scatter, turns = pace.scatter, pace.turns
+    return Pace(
+        step, ahead, back, 0, 0, off, scatter + counted * (off * off - scatter),
+        turns + counted * (off * pace.off - turns), (1.0 - share) * pace.at_once, min(pace.rows + 1.0, _LONG),
+    )  # fmt: skip
+
+
+@compiled
+def _without_stamp(pace: Pace, waiting: int) -> Pace:
+    """The pace after a row that was given the usual step."""
+    at_once = pace.at_once + max(_SHARE, 1.0 / (pace.rows + 1.0)) * (1.0 - pace.at_once)
+    return Pace(
+        pace.step, pace.ahead + pace.step, pace.back, waiting, 0, 0.0, pace.scatter, pace.turns, at_once,
+        min(pace.rows + 1.0, _LONG),
+    )  # fmt: skip

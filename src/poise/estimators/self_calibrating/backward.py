@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
     ADDED,
+    ANOTHER_BIAS,
     BIAS,
     CORRECTIONS,
     ENTRY,
@@ -122,6 +123,10 @@ def back(log: Floats, future: Floats, corrections: Floats) -> None:
                     if i < SIZE:
                         future[TURN + k, i] = 0.0
                         future[VELOCITY + k, i] = 0.0
+                    if log[at + 1, ONE] == ANOTHER_BIAS:
+                        future[i, BIAS + k] = 0.0
+                        if i < SIZE:
+                            future[BIAS + k, i] = 0.0
         else:
             for m in range(int(log[at, ONE]) - 1, -1, -1):
                 back_through_correction(future, log, at + CORRECTIONS + 2 * m)

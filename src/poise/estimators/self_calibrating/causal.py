@@ -14,17 +14,20 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from poise.data.flags import GYR_CLIPPED, MAG_DISTURBED, REST
+from poise.data.flags import GYR_CLIPPED, MAG_DISTURBED, REST, UNSETTLED
 from poise.data.learned import Learned
 from poise.data.packet import Output, Sample
 from poise.estimators.self_calibrating.learned import check_start, doubts, iron_from_before, take_over
 from poise.estimators.self_calibrating.learned import learned as known_by_now
 from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
+    ANOTHER_BIAS,
+    BEGUN_ANEW,
     BIAS,
     COLUMNS,
     ENTRY,
     FIELD,
+    GOES_ON,
     IRON,
     MAG_DELAY,
     NOTHING,
@@ -55,6 +58,14 @@ from poise.estimators.self_calibrating.model import (
     symmetrise,
     three,
     vector,
+)
+from poise.estimators.self_calibrating.watch import (
+    contradicted,
+    doubt_bias,
+    forget_watch,
+    settled,
+    turned_away,
+    turns_alone,
 )
 from poise.math.compiled import compiled
 from poise.math.matrices import Mat3, matrix, transpose
@@ -122,6 +133,15 @@ class SelfCalibrating(NamedTuple):
     rest_acc: Annotated[float, "m/s²", "largest distance of a still specific force from its mean, per axis"] = 0.5
     rest_noise: Annotated[float, "rad/s", "how far a block's mean rate at rest is from the bias", (1e-9, 10.0)] = 3e-4
     rest_speed: Annotated[float, "m/s", "pseudo-velocity of a block at rest", (1e-9, 1e3)] = 0.01
+    watch_time: Annotated[
+        float, "s", "over which the mean specific force must stand upright; longer than motions", (0.1, 1e6)
+    ] = 5.0
+    watch_tilt: Annotated[
+        float, "rad", "a mean further off, beside what motion explains, means that the bias has changed", (1e-3, 10.0)
+    ] = radians(1.5)
+    watch_heading: Annotated[
+        float, "rad", "a field turned further, with its dip and length, means the same", (1e-3, 10.0)
+    ] = radians(12.0)
     sure_tilt: Annotated[
         float, "rad", "the magnetometer corrects the tilt too while that is less sure", (0.0, 10.0)
     ] = radians(2.0)
@@ -161,8 +181,9 @@ class SelfCalibrating(NamedTuple):
         unsure_attitude(self, P)
         if state.begun:
             forget(P, TURN, 2, (4.0 * self.initial_tilt) ** 2)  # it may well be in motion
-            enter_block(P, NOTHING, True)
+            enter_block(P, NOTHING, BEGUN_ANEW)
         begin_block(P)
+        forget_watch(P)
         put(P, SENSOR, 9, ZERO)
         attitude = attitude_of(sample.acc, sample.mag, 0.0)
         return State(attitude, state.bias, ZERO, sample.gyr, sample.acc, 0.0, state.begun, P)
@@ -211,6 +232,7 @@ class SelfCalibrating(NamedTuple):
         sums = Sums(
             s.time + T, s.samples + 1.0, s.rotation + T * R, force, force_late, force_time, s.gyr + sample.gyr,
             s.rate_square + dot(w, w), excess, mags, mag_time, off, to_iron, to_delay, clipped,
+            s.unmeasured + sample.turn_variance,
         )  # fmt: skip
         seconds = state.still + T if still else 0.0
         if sums.time < self.block - 0.5 * T:
@@ -237,6 +259,8 @@ class SelfCalibrating(NamedTuple):
         flags = REST if state.still >= self.rest_time else 0
         if float(P[SENSOR, 21]) > 0.05**2:
             flags |= MAG_DISTURBED
+        if not settled(P):
+            flags |= UNSETTLED
         if not within(sample.gyr, 0.98 * self.gyr_range):
             flags |= GYR_CLIPPED
         if self.log > 0:  # which entry of the log the row stands behind
@@ -306,7 +330,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     # 4. Covariance
     walk = method.bias_walk_rest if rest else method.bias_walk
     noise = Noise(
-        (method.gyr_noise**2 + method.scale_noise**2 * rate_square) * T,
+        (method.gyr_noise**2 + method.scale_noise**2 * rate_square) * T + s.unmeasured,
         walk**2 * T,
         (method.acc_noise**2 + method.motion_noise**2 * s.excess_square / s.samples) * T,
         method.field_walk**2 * T,
@@ -343,6 +367,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     # 7. Magnetometer
     field, length, spread, iron = known.field, known.length, known.spread, known.iron
     anew = not state.begun
+    e = ZERO
     if s.mags > 0.0:
         e = (1.0 / s.mags) * s.off
         if length < 0.0:  # a hard iron from before, in lengths of the field there
@@ -367,6 +392,10 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
             all_axes = P[0, 0] + P[1, 1] > 2.0 * method.sure_tilt**2
             correct_field(P, e, field, (1.0 / s.mags) * s.to_iron, (1.0 / s.mags) * s.to_delay, all_axes, variance)
     symmetrise(P)
+    seen = e + field if s.mags > 0.0 and length > 0.0 else ZERO
+    at_hand: Vec3 = transpose(matrix(q)) @ seen
+    bias_changed = contradicted(method, P, s) or turns_alone(P, at_hand, still, T, rest)
+    bias_changed = bias_changed or (state.begun and s.mags > 0.0 and turned_away(method, P, s, seen, field))
 
     # 8. Inject
     after = Sensor(
@@ -381,7 +410,9 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         wander,
     )
     put_sensor(P, after)
-    enter_block(P, s, anew)
+    if bias_changed:  # 9. What was thought to be known of it is not
+        doubt_bias(method, P)
+    enter_block(P, s, ANOTHER_BIAS if bias_changed else (BEGUN_ANEW if anew else GOES_ON))
     begin_block(P)
     q = normalize(exp(vector(P, X, TURN)) * q)
     bias = state.bias + vector(P, X, BIAS)

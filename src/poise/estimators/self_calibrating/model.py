@@ -30,6 +30,7 @@ SUMS, SENSOR, ROWS, COLUMNS = 31, 34, 35, 28
 ENTRIES, ENTRY = ROWS, 28
 INJECTED, ADDED, CORRECTIONS, MOST = 6, 7, 10, 9
 ONE = SIZE  # the column of single numbers
+GOES_ON, BEGUN_ANEW, ANOTHER_BIAS = 0.0, 1.0, 2.0  # what became of the attitude, and of the bias, after a block
 
 _NONE = Mat3(ZERO, ZERO, ZERO)
 
@@ -52,6 +53,7 @@ class Sums(NamedTuple):
     to_iron: Mat3  # Σ R₀
     to_delay: Vec3  # Σ R₀ (ω × u)
     clipped: Mat3  # Σ R dt, of the columns whose rate was at the end of the range
+    unmeasured: float  # rad²: Σ of the variance of what was turned unmeasured
 
 
 class Sensor(NamedTuple):
@@ -68,7 +70,7 @@ class Sensor(NamedTuple):
     wander: float  # s_v², (m/s)²: mean square of the pseudo-velocity in motion, per axis
 
 
-NOTHING = Sums(0.0, 0.0, _NONE, ZERO, ZERO, 0.0, ZERO, 0.0, 0.0, 0.0, 0.0, ZERO, _NONE, ZERO, _NONE)
+NOTHING = Sums(0.0, 0.0, _NONE, ZERO, ZERO, 0.0, ZERO, 0.0, 0.0, 0.0, 0.0, ZERO, _NONE, ZERO, _NONE, 0.0)
 
 
 class Noise(NamedTuple):
@@ -158,7 +160,7 @@ def enter_correction(P: Floats, residual: float, per_S: float) -> None:
 
 
 @compiled
-def enter_block(P: Floats, s: Sums, restarted: bool) -> None:
+def enter_block(P: Floats, s: Sums, event: float) -> None:
     """A block's entry is complete: P after the corrections, what was injected, what was added up."""
     if P.shape[0] <= ROWS:
         return
@@ -174,7 +176,7 @@ def enter_block(P: Floats, s: Sums, restarted: bool) -> None:
     put_three(P, at + ADDED, 9, s.rotation)
     put(P, at + ADDED + 1, 9, s.force)
     put(P, at + ADDED + 2, 9, s.force_late)
-    P[at + 1, ONE] = 1.0 if restarted else 0.0
+    P[at + 1, ONE] = event
     P[SENSOR, 22] += 1.0
     P[entry_row(P), ONE] = 0.0
 
@@ -273,7 +275,7 @@ def sums_of(P: Floats) -> Sums:
     return Sums(
         float(P[a, 0]), float(P[a, 1]), three(P, a, 2), vector(P, a, 11), vector(P, a, 14), float(P[a, 17]),
         vector(P, a, 18), float(P[a, 21]), float(P[a, 22]), float(P[a, 23]), float(P[a, 24]), vector(P, b, 0),
-        three(P, b, 3), vector(P, b, 12), three(P, c, 0),
+        three(P, b, 3), vector(P, b, 12), three(P, c, 0), float(P[c, 9]),
     )  # fmt: skip
 
 
@@ -290,6 +292,7 @@ def put_sums(P: Floats, s: Sums) -> None:
     put_three(P, b, 3, s.to_iron)
     put(P, b, 12, s.to_delay)
     put_three(P, c, 0, s.clipped)
+    P[c, 9] = s.unmeasured
 
 
 @compiled

@@ -1,0 +1,124 @@
+"""Whether gravity has contradicted the tilt for so long that the gyroscope's bias must have changed.
+
+A filter that is sure of its bias follows gravity slowly, and takes what contradicts it for motion. Motion has no mean for
+long, though: over seconds the mean specific force stands upright, by as much as the motion that is in it lets one expect.
+"""
+
+from __future__ import annotations
+
+from math import atan2, sqrt
+from typing import TYPE_CHECKING
+
+from poise.estimators.self_calibrating.model import BIAS, SUMS, TURN, VELOCITY, Floats, Sums, forget, put, vector
+from poise.math.compiled import compiled
+from poise.math.vectors import ZERO, Vec3, cross, dot
+
+if TYPE_CHECKING:
+    from poise.estimators.self_calibrating.causal import SelfCalibrating
+
+_MEAN = 10  # where the row of sums keeps the mean of the horizontal specific force (2) and of the square of all of it
+_SEEN, _TURNED = 13, 16  # and of a rest the field that it began with (3), and the turn since then (3), body frame
+_FIELD = 19  # and the mean of the field as it was seen (3), Earth frame, of its square, and of its misfit
+_UNSETTLED = 24  # and the seconds that the attitude is unsettled for, after the bias was doubted
+_SAME, _STEADY = 0.1, 0.12  # lengths that its north and up may be off, and that it may stray from its mean
+_UNDISTURBED = 0.07  # lengths that dip and length may be off, for four times as long
+_WOULD_SHOW, _SHOWS = 0.05, 0.3  # lengths: the field would have moved by as much, and moved by that share of it
+_OF_MOTION = 0.12  # of the motion's root mean square may be left in the mean
+
+
+@compiled
+def contradicted(method: SelfCalibrating, P: Floats, s: Sums) -> bool:
+    """Takes the block into the means, and says whether the tilt cannot be right (eq. 15)."""
+    P[SUMS + 2, _UNSETTLED] = max(float(P[SUMS + 2, _UNSETTLED]) - s.time, 0.0)
+    if s.force_time == 0.0:
+        return False
+    share, per_time = s.time / (method.watch_time + s.time), 1.0 / (s.force_time * method.gravity)
+    row = SUMS + 2
+    x = float(P[row, _MEAN]) + share * (s.force.x * per_time - float(P[row, _MEAN]))
+    y = float(P[row, _MEAN + 1]) + share * (s.force.y * per_time - float(P[row, _MEAN + 1]))
+    square = s.excess_square / (s.samples * method.gravity * method.gravity)
+    square = float(P[row, _MEAN + 2]) + share * (square - float(P[row, _MEAN + 2]))
+    P[row, _MEAN], P[row, _MEAN + 1], P[row, _MEAN + 2] = x, y, square
+    off = x * x + y * y
+    least = method.watch_tilt + _OF_MOTION * sqrt(max(square - off, 0.0))
+    return off > least * least
+
+
+@compiled
+def turned_away(method: SelfCalibrating, P: Floats, s: Sums, seen: Vec3, field: Vec3) -> bool:
+    """Whether the field stands there as it always did, but another way round: then it is the heading that has turned.
+
+    *seen* and *field* in lengths, Earth frame. What disturbs a field changes its dip or length, or moves with the body.
+    """
+    row = SUMS + 2
+    share = s.mag_time / (method.watch_time + s.mag_time)
+    mean = vector(P, row, _FIELD)
+    mean = mean + share * (seen - mean)
+    put(P, row, _FIELD, mean)
+    square = float(P[row, _FIELD + 3])
+    square += share * (dot(seen, seen) - square)
+    P[row, _FIELD + 3] = square
+    up, longer = seen.z - field.z, sqrt(dot(seen, seen)) - 1.0
+    misfit = float(P[row, _FIELD + 4])
+    misfit += 0.25 * share * (up * up + longer * longer - misfit)
+    P[row, _FIELD + 4] = misfit
+    if misfit > _UNDISTURBED**2:
+        return False
+    north = sqrt(mean.x * mean.x + mean.y * mean.y)
+    if abs(north - field.y) > _SAME or abs(mean.z - field.z) > _SAME or square - dot(mean, mean) > _STEADY**2:
+        return False
+    return abs(atan2(mean.x, mean.y)) > method.watch_heading
+
+
+@compiled
+def turns_alone(P: Floats, field: Vec3, off: Vec3, time: float, rest: bool) -> bool:
+    """Whether at rest the gyroscope alone turns, by *off* rad/s beside the bias, and the field in the body stands.
+
+    *field* in lengths; ZERO where there is no magnetometer sample. The turn about the field itself shows nowhere.
+    """
+    row = SUMS + 2
+    if not rest:
+        put(P, row, _SEEN, ZERO)
+        return False
+    if field == ZERO:
+        return False
+    seen = vector(P, row, _SEEN)
+    if seen == ZERO:
+        put(P, row, _SEEN, field)
+        put(P, row, _TURNED, ZERO)
+        return False
+    turned = vector(P, row, _TURNED) + time * off
+    put(P, row, _TURNED, turned)
+    would, moved = cross(turned, seen), field - seen
+    return dot(would, would) > _WOULD_SHOW**2 and dot(moved, moved) < _SHOWS**2 * dot(would, would)
+
+
+@compiled
+def doubt_bias(method: SelfCalibrating, P: Floats) -> None:
+    """The bias is as unknown as at the start, and so the attitude is uncertain by more than what was seen of its error."""
+    row = SUMS + 2
+    off = float(P[row, _MEAN]) ** 2 + float(P[row, _MEAN + 1]) ** 2
+    forget(P, BIAS, 3, method.initial_bias**2)
+    forget(P, TURN, 2, max(4.0 * off, method.initial_tilt**2))
+    mean = vector(P, row, _FIELD)
+    away = atan2(mean.x, mean.y)  # 0 where none has been seen
+    heading = float(P[TURN + 2, TURN + 2]) + 9.0 * max(off, method.initial_tilt**2) + away * away
+    forget(P, TURN + 2, 1, min(heading, method.initial_heading**2))
+    forget(P, VELOCITY, 3, 1.0)
+    forget_watch(P)
+    P[row, _UNSETTLED] = method.watch_time
+
+
+@compiled
+def settled(P: Floats) -> bool:
+    """Whether the bias has not been doubted for a while."""
+    return float(P[SUMS + 2, _UNSETTLED]) <= 0.0
+
+
+@compiled
+def forget_watch(P: Floats) -> None:
+    """Nothing seen yet."""
+    put(P, SUMS + 2, _MEAN, ZERO)
+    put(P, SUMS + 2, _SEEN, ZERO)
+    put(P, SUMS + 2, _FIELD, ZERO)
+    P[SUMS + 2, _FIELD + 3], P[SUMS + 2, _FIELD + 4] = 0.0, 0.0
