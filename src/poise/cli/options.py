@@ -312,7 +312,7 @@ def method_choices(names: tuple[str, ...], settings: tuple[str, ...]) -> tuple[A
         if not fitting or not value:
             usage(f"--set {text!r}: expected NAME=VALUE with a parameter of {' or '.join(chosen)}")
         for name in fitting:
-            chosen[name][key] = _parsed(value.strip(), kinds[name][key])
+            chosen[name][key] = parsed(value.strip(), kinds[name][key])
     try:
         return tuple(Choice.of(name, found) for name, found in chosen.items())
     except PoiseError as error:
