@@ -13,8 +13,10 @@ from poise.cli.demo import demo
 from poise.cli.doctor import doctor
 from poise.cli.estimate import estimate
 from poise.cli.evaluate import evaluate
+from poise.cli.live import live
 from poise.cli.methods import methods
 from poise.cli.plot import plot
+from poise.cli.recover import recover
 from poise.cli.respond import respond
 from poise.cli.simulate import simulate
 from poise.cli.sniff import sniff
@@ -41,6 +43,8 @@ app.command(doctor)
 app.command(tipover)
 app.command(respond)
 app.command(sniff)
+app.command(live)
+app.command(recover)
 app.command(methods)
 app.command(demo)
 app.command(simulate)

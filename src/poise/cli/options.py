@@ -294,6 +294,31 @@ class Running:
             usage(str(error))
 
 
+def method_choices(names: tuple[str, ...], settings: tuple[str, ...]) -> tuple[Any, ...]:
+    """The live methods *names*, each with those of the *settings*, ``NAME=VALUE``, that it has.
+
+    Raises :class:`UsageError` for a method that does not exist, and for a setting that none of them has.
+    """
+    from poise.estimators import METHODS
+    from poise.estimators.parameters import parameters
+    from poise.live.methods import Choice
+
+    chosen: dict[str, dict[str, Any]] = {name: {} for name in names}
+    kinds = {name: {p.name: p.kind for p in parameters(METHODS[name])} for name in chosen if name in METHODS}
+    for text in settings:
+        key, _, value = text.partition("=")
+        key = key.strip().replace("-", "_")
+        fitting = [name for name, known in kinds.items() if key in known]
+        if not fitting or not value:
+            usage(f"--set {text!r}: expected NAME=VALUE with a parameter of {' or '.join(chosen)}")
+        for name in fitting:
+            chosen[name][key] = parsed(value.strip(), kinds[name][key])
+    try:
+        return tuple(Choice.of(name, found) for name, found in chosen.items())
+    except PoiseError as error:
+        usage(str(error))
+
+
 def _amount(name: str, text: str) -> int:
     from poise.formats.limits import Limits
 

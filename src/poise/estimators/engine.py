@@ -137,6 +137,16 @@ class Stream:
         self._see_mag(rows)
         return self._advance(rows, many["time"])
 
+    def update_rows(self, rows: Floats, table: Floats, flags: NDArray[np.uint32]) -> None:
+        """:meth:`update` for *rows* (n, 12), n ≥ 1, as the loop reads them (``ROW_COLUMNS``), unchecked.
+
+        For whoever runs hundreds of streams over one array of samples, and has a *table* (n, 16) and *flags* (n,) to fill.
+        """
+        self._see_mag(rows)
+        self._advance_into(rows, table, flags)
+        last = rows[-1:, TIME].copy(), table[-1:].copy(), flags[-1:].copy()  # a view would keep all of their arrays
+        self._latest = Attitude.view(*last, self._heading, self._provenance)
+
     def _advance(self, rows: Floats, time: Floats) -> Attitude:
         n = len(time)
         table = np.empty((n, COLUMNS))
@@ -222,6 +232,21 @@ class Stream:
         """(3,) rad, about the Earth's axes: the turn from the attitude given out to the method's own; see *slew*."""
         state = self.running_state
         return np.array(getattr(state, "pending", (0.0, 0.0, 0.0)), float)
+
+    @property
+    def latest(self) -> Attitude | None:
+        """The attitude after the last sample, one row; None before the first."""
+        return None if self._latest is None else self._latest[-1:]
+
+    @property
+    def heading_reference(self) -> HeadingReference:
+        """What a heading of zero means by now."""
+        return self._heading
+
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """Every parameter of the method with its wrappers, by name."""
+        return dict(self._provenance.parameters)
 
     @property
     def resets(self) -> int:

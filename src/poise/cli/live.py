@@ -1,0 +1,199 @@
+"""``poise live``: devices in, attitude out."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Parameter
+
+from poise.cli import show
+from poise.cli.options import Reading, UsageError, method_choices, usage
+from poise.errors import PoiseError
+
+if TYPE_CHECKING:
+    from poise.live.server import Options, Server
+    from poise.live.watching import Watch
+
+
+def live(
+    sources: Annotated[list[str] | None, Parameter(name="SOURCE", negative="")] = None,
+    /,
+    *,
+    method: Annotated[tuple[str, ...], Parameter(name=["--method", "-m"], negative="")] = ("self-calibrating",),
+    set_: Annotated[tuple[str, ...], Parameter(name="--set", negative="")] = (),
+    host: str = "127.0.0.1",
+    port: int = 8760,
+    token: Annotated[tuple[str, ...], Parameter(negative="")] = (),
+    allow_host: Annotated[tuple[str, ...], Parameter(negative="")] = (),
+    record: Path | None = None,
+    describe: Path | None = None,
+    tipover: Path | None = None,
+    respond: Annotated[tuple[str, ...], Parameter(negative="")] = (),
+    max_rate: float = 5000.0,
+    reading: Reading | None = None,
+) -> int:
+    """Serve the attitude of devices as their samples come.
+
+    SOURCE is where samples come from; any number of them:
+
+    - `ws`: devices connect by themselves and push, to `ws://HOST:PORT/ws/device/NAME`; always on, whatever else is given
+    - `replay:FILE`: a recording as a device, `replay:FILE@10` ten times as fast, `@max` as fast as it can be taken
+
+    - `udp::9000`, `udp:127.0.0.1:9000`: datagrams with samples, on all addresses of this machine or one
+    - `serial:/dev/ttyUSB0`: text lines or binary frames; unplugged and plugged in again it goes on
+    - `mqtt://HOST/TOPIC`: messages at a broker, by default of `poise/+`; the last level names the device
+
+    Attitudes come out over WebSocket and HTTP; docs/live.md has the protocol, a client of ten lines and a `curl` example.
+    Only this machine can connect unless --host says otherwise, and then a --token is needed.
+
+    Examples: `poise live`; `poise live replay:walk.csv -m self-calibrating -m two-stage`;
+    `poise live --host 0.0.0.0 --token $(openssl rand -hex 16)`
+
+    Parameters
+    ----------
+    sources
+        Where samples come from.
+    method
+        What runs on every device; repeat for several side by side.
+    set_
+        A parameter, `NAME=VALUE`, of every method above that has it.
+    host
+        The address to listen on.
+    port
+        The port; 0 takes a free one.
+    token
+        What clients must show; `read:…`, `write:…` and `device:…` (or `read+write:…`) may do just that, a bare one
+        everything. Repeat for more. The environment's POISE_TOKEN counts, too, and is not seen in a list of processes.
+    allow_host
+        One more name that this machine goes by.
+    record
+        A folder to keep samples and attitudes in, as Parquet files, one a device and one a method of it. A device is
+        told what is on the disk. After a crash the same command goes on where it was; `poise recover` just saves what is there.
+    describe
+        A TOML file that says what text lines or binary frames from a serial port, UDP or MQTT mean; see docs/live.md.
+    tipover
+        A TOML file with the tip-over monitor's parameters, as for `poise tipover`: every device is watched.
+    respond
+        `DEVICE=FILE.toml`: what answers when that device tips over, as for `poise respond`, with the monitor's parameters in
+        the same file. Repeat for more devices.
+    max_rate
+        Samples a second above which a device is cut off.
+    """
+    try:
+        server = _server(
+            sources or [],
+            method,
+            set_,
+            (host, port, token, allow_host),
+            (record, describe, tipover),
+            respond,
+            max_rate,
+            reading or Reading(),
+        )
+    except UsageError as error:
+        show.problem(error)
+        return 2
+    except PoiseError as error:
+        show.problem(error)
+        return 1
+    from poise.live.serving import run
+
+    try:
+        run(_told(server))
+    except (PoiseError, OSError) as error:
+        show.problem(error)
+        return 1
+    return 0
+
+
+def _server(
+    words: list[str],
+    names: tuple[str, ...],
+    settings: tuple[str, ...],
+    where: Any,
+    files: tuple[Path | None, Path | None, Path | None],
+    respond: tuple[str, ...],
+    max_rate: float,
+    reading: Reading,
+) -> Server:
+    from poise.live.serving import check_installed
+
+    check_installed()
+    from poise.live.access import AccessError
+    from poise.live.described import Description
+    from poise.live.devices import DeviceError
+    from poise.live.hub import Hub
+    from poise.live.server import Server
+    from poise.live.sources import source
+
+    record, describe, tipover = files
+    if not 1.0 <= max_rate <= 1e6:
+        usage(f"--max-rate {max_rate}: expected samples a second, 1 to 1e6")
+    hub = Hub(method_choices(names, settings), max_rate, _watch(tipover, respond))
+    try:
+        options = _options(*where)
+        description = Description.read(describe) if describe is not None else None
+        found = [source(word, reading.read, description) for word in words]
+        recorder = None
+        if record is not None:
+            from poise.live.recorder import Recorder
+            from poise.live.session import Session
+
+            recorder = Recorder(Session.below(record))
+        return Server(hub, [each for each in found if each is not None], options, recorder)
+    except (AccessError, DeviceError) as error:
+        usage(str(error))
+
+
+def _watch(tipover: Path | None, respond: tuple[str, ...]) -> Watch | None:
+    if tipover is None and not respond:
+        return None
+    from poise.live.watching import Watch
+    from poise.monitor import from_table, read_settings
+    from poise.responses import Responses
+
+    usual = read_settings(tipover) if tipover is not None else None
+    own, responses = {}, {}
+    for text in respond:
+        device, equals, file = text.partition("=")
+        if not (device and equals and file) or device in responses:
+            usage(f"--respond {text!r}: expected DEVICE=FILE.toml, once a device")
+        responses[device] = Responses.from_toml(file)
+        table = responses[device].config.tipover
+        if table is not None:
+            own[device] = from_table(table, usual)
+    return Watch(usual, own, responses)
+
+
+def _options(host: str, port: int, tokens: tuple[str, ...], hosts: tuple[str, ...]) -> Options:
+    from poise.live.access import parsed_tokens
+    from poise.live.server import Options
+
+    if not 0 <= port <= 65535:
+        usage(f"--port {port}: expected 0 to 65535")
+    if secret := os.environ.get("POISE_TOKEN"):
+        tokens = (*tokens, secret)
+    return Options(host, port, parsed_tokens(tokens), hosts)
+
+
+async def _told(server: Server) -> None:
+    """Runs *server* and says where it is and what happens to its devices."""
+    import asyncio
+
+    server.hub.on_event.append(lambda event: show.note(event["text"]))
+    ready = asyncio.Event()
+
+    async def tell() -> None:
+        await ready.wait()
+        options = server.options
+        name = f"[{options.host}]" if ":" in options.host else options.host
+        print(f"poise live on http://{name}:{options.port}/  (Ctrl-C ends it)", flush=True)
+
+    telling = asyncio.create_task(tell())
+    try:
+        await server.run(ready)
+    finally:
+        telling.cancel()
+    print(f"ended: {sum(d.health.samples for d in server.hub.devices.values())} samples", flush=True)

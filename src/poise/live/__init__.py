@@ -1,0 +1,1 @@
+"""Live: devices in, attitude out, to viewers and to disk."""

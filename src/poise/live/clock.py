@@ -1,0 +1,119 @@
+"""A device's clock against the host's: offset and drift from stamps that arrive late, never early."""
+
+from __future__ import annotations
+
+from math import inf, isfinite, nan
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+_BIN = 1.0  # s of device time of which only the least delayed packet counts
+_BINS = 120  # how many of them are kept
+_FIT = 8  # bins before a drift is believed
+_JUMP = 1.0  # s: no network delays by that, but a clock that is set does
+_PATIENCE = 5.0  # s that packets may come later than by _JUMP before the clock is held to be set
+_MOST_DRIFT = 0.02  # of an RC oscillator
+
+
+class DeviceClock:
+    """Maps stamps of one device to the host's time.
+
+    A packet's delay is never negative, so host − device lies above a line whose level is offset (with the least delay of
+    the link in it) and whose slope is drift. The line is the edge of the points' lower convex hull below their middle,
+    which has the least sum of distances (Moon, Skelly and Towsley 1999). Jitter lies above it and drops out.
+    """
+
+    def __init__(self) -> None:
+        self.restarts = -1
+        """how often the device's clock was set"""
+        self._late_since = inf
+        self._restart(nan)
+
+    def _restart(self, device: float) -> None:
+        self.restarts += 1
+        self._zero, self._level, self._slope = device, inf, 0.0
+        self._newest, self._bin = -inf, -1
+        self._at: list[float] = []
+        self._delays: list[float] = []
+
+    def update(self, device: float, host: float) -> None:
+        """A packet whose last sample is stamped *device* (s) has arrived at *host* (s)."""
+        if not (isfinite(device) and isfinite(host)):
+            return
+        if not isfinite(self._zero):
+            self._zero = device
+        late = host - self.host(device) if self._at else 0.0
+        if late < -_JUMP or (device < self._newest - _JUMP and abs(late) > _JUMP) or self._stays_late(late, host):
+            self._restart(device)
+        elapsed, delay = device - self._zero, host - device
+        number = int(elapsed // _BIN)
+        if number > self._bin:
+            self._bin = number
+            self._at.append(elapsed)
+            self._delays.append(delay)
+            del self._at[:-_BINS], self._delays[:-_BINS]
+            self._fit()
+        elif delay < self._delays[-1]:
+            self._at[-1], self._delays[-1] = elapsed, delay
+        self._newest = max(self._newest, device)
+        if delay < self._level + self._slope * elapsed:  # nothing arrives before it was sent
+            self._level = delay - self._slope * elapsed
+
+    def _stays_late(self, late: float, host: float) -> bool:
+        if late <= _JUMP:
+            self._late_since = inf
+            return False
+        self._late_since = min(self._late_since, host)
+        if host - self._late_since < _PATIENCE:
+            return False
+        self._late_since = inf
+        return True
+
+    def _fit(self) -> None:
+        at, delays = self._at[:-1], self._delays[:-1]  # the last bin has only begun
+        if len(at) < _FIT:
+            self._level, self._slope = min(self._delays), 0.0
+            return
+        hull: list[int] = []
+        for i in range(len(at)):
+            while len(hull) > 1 and _turns_down(at, delays, hull[-2], hull[-1], i):
+                hull.pop()
+            hull.append(i)
+        middle = sum(at) / len(at)
+        right = next(k for k in range(1, len(hull)) if at[hull[k]] >= middle or k == len(hull) - 1)
+        a, b = hull[right - 1], hull[right]
+        slope = (delays[b] - delays[a]) / (at[b] - at[a])
+        self._slope = min(max(slope, -_MOST_DRIFT), _MOST_DRIFT)
+        self._level = min(d - self._slope * t for t, d in zip(self._at, self._delays, strict=True))
+
+    def host(self, device: float) -> float:
+        """s of the host when the device's clock shows *device*, the least delay of the link included; NaN before a packet."""
+        return device + self._level + self._slope * (device - self._zero) if self._at else nan
+
+    def device(self, host: float) -> float:
+        """s of the device's clock at *host*: the inverse of :meth:`host`."""
+        if not self._at:
+            return nan
+        return (host - self._level + self._slope * self._zero) / (1.0 + self._slope)
+
+    @property
+    def line(self) -> tuple[float, float]:
+        """(a, b) with host = a + b · device, for many stamps at once; NaN before a packet."""
+        return (self._level - self._slope * self._zero, 1.0 + self._slope) if self._at else (nan, nan)
+
+    @property
+    def offset(self) -> float:
+        """s that the host is ahead of the device at its newest stamp, the least delay included."""
+        return self.host(self._newest) - self._newest if self._at else nan
+
+    @property
+    def drift_ppm(self) -> float:
+        """How much the host's clock gains on the device's, in 1e-6; 0 until it is known."""
+        return 1e6 * self._slope
+
+
+def _turns_down(at: list[float], values: list[float], a: int, b: int, c: int) -> bool:
+    """Whether the point b lies on or above the line from a to c."""
+    return (values[b] - values[a]) * (at[c] - at[a]) >= (values[c] - values[a]) * (at[b] - at[a])

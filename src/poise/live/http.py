@@ -1,0 +1,195 @@
+"""The addresses of the server; the only module that imports starlette."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import AsyncIterator, MutableMapping
+from math import degrees, isfinite
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from poise.data.attitude import Attitude
+from poise.errors import PoiseError
+from poise.live.access import App, Receive, Scope, Send
+from poise.live.hub import HubError
+from poise.live.metrics import metrics
+from poise.live.sockets import DeviceSocket, Viewer, accept
+
+if TYPE_CHECKING:
+    from starlette.requests import Request
+    from starlette.responses import Response
+
+    from poise.live.server import Server
+
+_NO_PAGE = """poise live is running. Its dashboard is not part of this installation; what it serves:
+
+GET  /devices                      devices and their methods
+GET  /devices/NAME/attitude        the latest attitude
+PUT  /devices/NAME/methods         change what a device runs
+POST /devices/NAME/heading         "this way is forward"
+GET  /methods                      methods and their parameters
+GET  /events                       what happens, as server-sent events
+GET  /healthz, /metrics            health, for people and for Prometheus
+WS   /ws/view                      attitudes as they come
+WS   /ws/device/NAME               samples in
+"""
+
+
+def needed(method: str, path: str) -> Scope | None:
+    """The scope that a request takes."""
+    if path.startswith("/ws/device/"):
+        return "device"
+    if path == "/healthz":
+        return None
+    if path.startswith(("/devices", "/methods", "/events", "/metrics", "/ws/view", "/recordings")):
+        return "read" if method in ("GET", "HEAD") else "write"
+    return None  # the page itself holds no data
+
+
+def application(server: Server) -> App:
+    """The application, without the gate before it."""
+    from starlette.applications import Starlette
+    from starlette.responses import JSONResponse, PlainTextResponse, StreamingResponse
+    from starlette.routing import Mount, Route, WebSocketRoute
+    from starlette.staticfiles import StaticFiles
+
+    from poise.live.server import DASHBOARD
+
+    hub = server.hub
+
+    async def devices(request: Request) -> Response:
+        return JSONResponse(server.device_list()["devices"])
+
+    async def attitude(request: Request) -> Response:
+        device = hub.find(request.path_params["name"])
+        record = hub.latest(device, request.query_params.get("method"))
+        if record is None:
+            return JSONResponse({"error": f"{device.name} has sent no sample yet"}, 404)
+        return JSONResponse(as_json(record, device.name))
+
+    async def methods(request: Request) -> Response:
+        return JSONResponse(server.hello()["methods"])
+
+    async def change(request: Request) -> Response:
+        kind = "methods" if request.method == "PUT" else "reset_heading"
+        body = await request.body() or b"{}"
+        if len(body) > 65536:
+            raise HubError("more than 64 KiB")
+        asked = json.loads(body)
+        if kind == "methods" and isinstance(asked, list):
+            asked = {"methods": asked}
+        if not isinstance(asked, dict):
+            raise HubError("expected a JSON object")
+        server.change(kind, asked | {"device": request.path_params["name"]})
+        return JSONResponse(hub.find(request.path_params["name"]).described())
+
+    async def events(request: Request) -> Response:
+        after = request.headers.get("last-event-id") or request.query_params.get("after") or "0"
+
+        async def lines() -> AsyncIterator[str]:
+            yield ": poise\n\n"
+            async for event in server.events(int(after) if after.isdecimal() else 0):
+                yield f"id: {event['number']}\nevent: {event['kind']}\ndata: {json.dumps(event)}\n\n"
+
+        return StreamingResponse(lines(), media_type="text/event-stream", headers={"cache-control": "no-store"})
+
+    async def healthz(request: Request) -> Response:
+        healthy, reasons = server_health(server)
+        answer: dict[str, Any] = {"status": "ok" if healthy else "degraded"}
+        if "read" in request.scope["poise_scopes"]:
+            answer |= {"reasons": reasons} | {k: v for k, v in server.health().items() if k != "type"}
+        return JSONResponse(answer, 200 if healthy else 503)
+
+    async def prometheus(request: Request) -> Response:
+        return PlainTextResponse(metrics(server), media_type="text/plain; version=0.0.4; charset=utf-8")
+
+    async def no_page(request: Request) -> Response:
+        return PlainTextResponse(_NO_PAGE)
+
+    async def refused(request: Request, problem: Exception) -> Response:
+        status = 404 if isinstance(problem, HubError) and str(problem).startswith("no device") else 400
+        return JSONResponse({"error": str(problem) or type(problem).__name__}, status)
+
+    page: Any = Mount("/", StaticFiles(directory=DASHBOARD, html=True)) if DASHBOARD.is_dir() else Route("/", no_page)
+    app: Any = Starlette(
+        routes=[
+            Route("/devices", devices),
+            Route("/devices/{name}/attitude", attitude),
+            Route("/devices/{name}/methods", change, methods=["PUT"]),
+            Route("/devices/{name}/heading", change, methods=["POST"]),
+            Route("/methods", methods),
+            Route("/events", events),
+            Route("/healthz", healthz),
+            Route("/metrics", prometheus),
+            WebSocketRoute("/ws/view", _View(server)),
+            WebSocketRoute("/ws/device/{name}", _Push(server)),
+            page,
+        ],
+        exception_handlers={PoiseError: refused, ValueError: refused},
+    )
+    return app  # type: ignore[no-any-return]
+
+
+class _View:
+    """An ASGI application and not a coroutine: starlette would wrap every message of one in an object of its own."""
+
+    def __init__(self, server: Server) -> None:
+        self._server = server
+
+    async def __call__(self, scope: MutableMapping[str, Any], receive: Receive, send: Send) -> None:
+        await receive()
+        await send(accept(scope))
+        await Viewer(self._server, send, scope["poise_scopes"]).run(receive)
+
+
+class _Push:
+    def __init__(self, server: Server) -> None:
+        self._server = server
+
+    async def __call__(self, scope: MutableMapping[str, Any], receive: Receive, send: Send) -> None:
+        await receive()
+        try:
+            socket = DeviceSocket(self._server, scope["path_params"]["name"], send)
+        except PoiseError as problem:
+            await send({"type": "websocket.http.response.start", "status": 400, "headers": []})
+            await send({"type": "websocket.http.response.body", "body": f"{problem}\n".encode()})
+            return
+        await send(accept(scope))
+        await socket.run(receive)
+
+
+def server_health(server: Server) -> tuple[bool, list[str]]:
+    """Whether all is well, and what is not."""
+    reasons = [f"{d.name} is silent" for d in server.hub.devices.values() if d.health.silent and d.silent_for(1.0)]
+    if server.recorder is not None and (reason := server.recorder.condition()["reason"]):
+        reasons.append(f"not recording: {reason}")
+    return not any(reason.startswith("not recording") for reason in reasons), reasons
+
+
+def as_json(record: Any, name: str) -> dict[str, Any]:
+    """A record of :data:`poise.live.frames.ATTITUDE` for people and scripts; NaN becomes null."""
+    from poise.data.flags import Flag
+
+    quat = np.array([record["quat"]], float)
+    known = bool(np.isfinite(quat).all())
+    attitude = Attitude.of([float(record["time"])], quat)
+    yaw = np.degrees(attitude.euler("ZYX")[0]) if known else [float("nan")] * 3
+    return {
+        "device": name,
+        "time": _number(record["time"]),
+        "host_time": _number(record["host"]),
+        "sequence": int(record["sequence"]),
+        "quat_wxyz": [_number(v) for v in record["quat"]],
+        "heading_deg": _number(degrees(float(attitude.heading()[0])) % 360.0) if known else None,
+        "tilt_deg": _number(degrees(float(attitude.tilt()[0]))) if known else None,
+        "yaw_pitch_roll_deg": [_number(v) for v in yaw],
+        "rate": [_number(v) for v in record["rate"]],
+        "sigma": [_number(v) for v in record["sigma"]],
+        "valid": bool(record["valid"]),
+        "flags": [flag.name for flag in Flag if int(record["flags"]) & flag],
+    }
+
+
+def _number(value: Any) -> float | None:
+    return float(value) if isfinite(value) else None

@@ -1,0 +1,268 @@
+"""The hub: every device's samples in, a stream for each of its methods, attitudes out once a tick."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from poise.data.attitude import Attitude, Provenance
+from poise.data.event import TipEvent
+from poise.data.flags import INVALID
+from poise.errors import PoiseError
+from poise.estimators.engine import Stream
+from poise.live.batch import Batch, Newest, Span
+from poise.live.device import Device, Running
+from poise.live.methods import Choice, startable, warmed
+from poise.live.waits import Waits
+from poise.live.watching import Watch, as_facts, as_text
+
+_EVENTS = 1000
+MOST_DEVICES = 10_000
+_LATE_TICK = 0.02  # s; a tick that comes later than this says nothing about devices
+
+
+class HubError(PoiseError):
+    """What the hub refuses: a device that is not there, one too many."""
+
+
+class Hub:
+    """Devices by name, each with its methods; :meth:`tick` turns what has arrived into attitudes.
+
+    *methods* are what a new device runs, and *watch* looks whether it tips over. Everything happens in one thread: only
+    compiling a method, which may take seconds, is done in another, while the device's samples wait.
+    """
+
+    def __init__(self, methods: tuple[Choice, ...], max_rate: float = 5000.0, watch: Watch | None = None) -> None:
+        self.methods, self.watch = methods, watch
+        self.max_rate = max_rate
+        self.devices: dict[str, Device] = {}
+        self.newest = Newest()
+        self.events: deque[dict[str, Any]] = deque(maxlen=_EVENTS)
+        self.on_batch: list[Callable[[Batch], None]] = []
+        """called with every tick's samples and attitudes: the recorder, viewers of every sample"""
+        self.on_event: list[Callable[[dict[str, Any]], None]] = []
+        self.on_change: list[Callable[[], None]] = []
+        """called when a device or its methods changed"""
+        self.on_switch: list[Callable[[Device], None]] = []
+        """called between two samples of a device when what it runs, or its heading, was changed"""
+        self.wanting: set[Device] = set()
+        """devices whose methods are to be loaded"""
+        self._waiting: dict[Device, None] = {}
+        self._to_restore: deque[Device] = deque()
+        self._event_number = 0
+        self._last_tick = 0.0
+        self.waits = Waits()
+        self.tick_cost = 0.0
+        """s, the running mean of what a tick with samples takes"""
+
+    def device(self, name: str, source: str = "") -> Device:
+        """The device *name*, made at its first mention. Raises :class:`HubError` for a name that cannot be, or one too many."""
+        found = self.devices.get(name)
+        if found is None:
+            if not 0 < len(name) <= 64 or not all(c.isalnum() or c in "-_.:" for c in name) or name.startswith("."):
+                raise HubError(f"device {name[:80]!r}: expected 1 to 64 letters, digits, - _ . or :")
+            if len(self.devices) >= MOST_DEVICES:
+                raise HubError(f"device {name!r}: there are {MOST_DEVICES} already")
+            found = self.devices[name] = Device(name, len(self.devices), source, self._waiting)
+            self.set_methods(found, self.methods)
+            self.event("device", found, f"device {name} from {source or 'somewhere'}")
+        return found
+
+    def restored(self, name: str) -> Device:
+        """The device *name* of a recording that goes on; it runs nothing until :meth:`restore`."""
+        found = self.devices[name] = Device(name, len(self.devices), "recording", self._waiting)
+        self._to_restore.append(found)
+        return found
+
+    def next_to_restore(self) -> Device | None:
+        """One of the devices that wait for :func:`poise.live.session.rebuilt` and :meth:`restore`; None: no more."""
+        return self._to_restore.popleft() if self._to_restore else None
+
+    def restore(self, device: Device, rebuilt: list[tuple[Choice, Attitude | None, Stream]]) -> None:
+        """*device* goes on with the streams it had; where there are none, it begins with the usual methods."""
+        device.to_restore = None
+        for number, (choice, start, stream) in enumerate(rebuilt):
+            slot = self.newest.slot(device.number, number)
+            device.runs.append(Running(choice, stream, number, slot, start))
+        if not rebuilt:
+            self.set_methods(device, self.methods)
+        self._changed()
+
+    def find(self, name: str) -> Device:
+        """The device *name*; raises :class:`HubError` where there is none."""
+        if name not in self.devices:
+            known = ", ".join(list(self.devices)[:10]) or "none yet"
+            raise HubError(f"no device {name!r}; there are: {known}")
+        return self.devices[name]
+
+    def set_methods(self, device: Device, methods: tuple[Choice, ...]) -> None:
+        """From the next tick after they are compiled on, *device* runs *methods*, side by side, from where it is.
+
+        No sample is lost or counted twice: until then it runs what it ran. Methods that it runs already go on.
+        """
+        kept = {run.choice: run for run in device.runs}
+        device.wanted = tuple(kept.get(choice) or choice for choice in methods)
+        self.wanting.add(device)
+        if all(isinstance(each, Running) or warmed(each) for each in device.wanted):
+            self.switch(device)
+
+    @staticmethod
+    def wanted(device: Device) -> tuple[Choice, ...]:
+        """The methods that *device* will run."""
+        return tuple(each.choice if isinstance(each, Running) else each for each in device.wanted)
+
+    def switch(self, device: Device) -> None:
+        """Puts the wanted methods of *device* in place, between two samples."""
+        latest = next((run.stream.latest for run in device.runs if run.stream.latest is not None), None)
+        runs, taken = [], {each.number for each in device.wanted if isinstance(each, Running)}
+        for each in device.wanted:
+            if isinstance(each, Running):
+                runs.append(each)
+                continue
+            number = next(n for n in range(256) if n not in taken)
+            taken.add(number)
+            slot = self.newest.slot(device.number, number)
+            start = latest if latest is not None and startable(latest) else None
+            runs.append(Running(each, each.stream(start), number, slot, start))
+        for run in device.runs:
+            if run not in runs:
+                self.newest.drop(run.slot)
+        device.runs, device.wanted = runs, ()
+        self.wanting.discard(device)
+        for told in self.on_switch:
+            told(device)
+        self._changed()
+
+    def reset_heading(self, device: Device, forward: str = "y") -> None:
+        """The direction that body axis *forward* of *device* points to now is north from now on, for all its methods."""
+        for run in device.runs:
+            run.stream.reset_heading(forward)
+        for told in self.on_switch:
+            told(device)
+        self.event("heading", device, f"heading of {device.name} set: {forward} points north")
+
+    @property
+    def starting(self) -> bool:
+        """Whether samples wait for a method to be loaded, or for the streams of a recording that goes on."""
+        return any(not device.runs for device in self._waiting)
+
+    def tick(self, now: float | None = None) -> Batch | None:
+        """Runs every sample that has arrived through its device's methods; *now* is the host's monotonic clock, s."""
+        now = time.monotonic() if now is None else now
+        late, self._last_tick = now - self._last_tick > _LATE_TICK, now
+        batch = self._advance(now) if self._waiting else None
+        if not late:
+            self._hush(now)
+        return batch
+
+    def _advance(self, now: float) -> Batch | None:
+        began = time.perf_counter()
+        ready = [device for device in self._waiting if device.runs]
+        if not ready:
+            return None
+        for device in ready:
+            del self._waiting[device]
+        wall = time.time() - now  # from the monotonic clock to the calendar's
+        parts, spans, row, out, oldest = [], [], 0, 0, now
+        for device in ready:
+            taken = device.take()
+            parts.append(taken.rows)
+            first, n = taken.sequence, len(taken.rows)
+            device.clock.update(float(taken.rows[-1, 0]), taken.arrived)
+            oldest = min(oldest, taken.first_arrived)
+            for run in device.runs:
+                spans.append(Span(device, run, first, slice(row, row + n), slice(out, out + n)))
+                out += n
+            row += n
+        rows = np.concatenate(parts) if len(parts) > 1 else parts[0]
+        batch = Batch.empty(rows, spans, out, wall)
+        for span in spans:
+            span.run.stream.update_rows(rows[span.rows], batch.table[span.out], batch.flags[span.out])
+        self._note(batch, ready, now)
+        if self.watch is not None:
+            self._judge(batch)
+        self.newest.put(batch)
+        for told in self.on_batch:
+            told(batch)
+        self.waits.add(now - oldest + time.perf_counter() - began)
+        self.tick_cost += 0.1 * (time.perf_counter() - began - self.tick_cost)
+        return batch
+
+    def _note(self, batch: Batch, ready: list[Device], now: float) -> None:
+        """What each device's health is told of the tick."""
+        bad = (batch.flags & np.uint32(INVALID)) != 0
+        invalid = np.add.reduceat(bad, [span.out.start for span in batch.spans])
+        for span, count in zip(batch.spans, invalid.tolist(), strict=True):
+            span.run.invalid += count
+        for device in ready:
+            if device.health.silent:
+                device.health.silent = False
+                self.event("back", device, f"{device.name} is back")
+            device.health.ticked(now)
+
+    def _judge(self, batch: Batch) -> None:
+        """Each device's monitor looks at what its first method says."""
+        assert self.watch is not None
+        for span in batch.spans:
+            device = span.device
+            if span.run is not device.runs[0]:
+                continue
+            if device.monitor is None:
+                device.monitor = self.watch.monitor(device.name)
+            rows = batch.rows[span.rows]
+            attitude = Attitude.view(
+                rows[:, 0].copy(), batch.table[span.out], batch.flags[span.out], "arbitrary", Provenance()
+            )
+            self._tell(device, device.monitor.update(attitude, rows[:, 4:7]))
+
+    def _tell(self, device: Device, events: list[TipEvent]) -> None:
+        assert self.watch is not None
+        assert device.monitor is not None
+        device.tip = int(device.monitor.state)
+        for event in events:
+            self.event("tip", device, as_text(device.name, event), **as_facts(event))
+            self.watch.handle(device.name, event)
+
+    def _hush(self, now: float) -> None:
+        """Attitudes of devices that have fallen silent become unknown."""
+        for device in self.devices.values():
+            health = device.health
+            if device.runs and health.samples and not health.silent and now - health.heard > health.silence:
+                health.silent = True
+                health.silences += 1
+                since = max(now - health.heard, 0.06)  # a stream calls it silence from 0.05 s on
+                latest = device.runs[0].stream.latest
+                if device.monitor is not None and latest is not None:
+                    self._tell(device, device.monitor.check(float(latest.time[0]) + since))
+                for run in device.runs:
+                    latest = run.stream.latest
+                    if latest is not None:
+                        self.newest.unknown(run.slot, run.stream.check(float(latest.time[0]) + since), device.tip)
+                self.event("silent", device, f"{device.name} is silent: its attitude is unknown")
+
+    def event(self, kind: str, device: Device | None, text: str, **facts: Any) -> None:
+        """Notes that something happened and tells whoever listens."""
+        self._event_number += 1
+        event = {"type": "event", "number": self._event_number, "kind": kind, "time": time.time()}
+        event |= {"device": device.name if device else None, "text": text, **facts}
+        self.events.append(event)
+        for told in self.on_event:
+            told(event)
+
+    def _changed(self) -> None:
+        for told in self.on_change:
+            told()
+
+    def latest(self, device: Device, method: str | None = None) -> Any:
+        """The newest record of *device* by *method* (its first one unless told); None before the first sample."""
+        for run in device.runs:
+            if method in (None, run.choice.name):
+                record = self.newest.records[run.slot]
+                return record if self.newest.versions[run.slot] else None
+        raise HubError(
+            f"{device.name} does not run {method!r}; it runs {', '.join(r.choice.name for r in device.runs)}"
+        )

@@ -1,0 +1,338 @@
+"""The server: the hub's devices and attitudes over HTTP and WebSocket. docs/live.md has the protocol."""
+
+from __future__ import annotations
+
+import asyncio
+import gc
+import json
+import signal
+import socket
+import time
+from collections.abc import AsyncIterator, Callable, Iterable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from poise.data.flags import SENTENCES, Flag
+from poise.errors import PoiseError
+from poise.live import frames, http
+from poise.live.access import Access, Gate
+from poise.live.hub import Hub, HubError
+from poise.live.methods import Choice, described
+from poise.live.session import rebuilt
+from poise.live.sockets import DeviceSocket, Viewer, choices
+from poise.version import __version__
+
+if TYPE_CHECKING:
+    from poise.live.batch import Batch
+    from poise.live.device import Device
+    from poise.live.devices import Source
+    from poise.live.recorder import Recorder
+
+DASHBOARD = Path(__file__).parent / "dashboard"
+_HEALTH_EVERY = 1.0  # s
+_FLAGS_EVERY = 0.25  # s that a flag stays in `flags_since`, so that every viewer sees it
+_QUICKEST, _SLOWEST = 0.004, 0.02  # s between ticks: as often as a quarter of the time allows
+_BACKLOG = 8192
+_HEAD_START = (
+    2.0  # s to load the methods before the first device is served: beside a busy loop it takes several times as long
+)
+_LIST_EVERY = 0.2  # s between lists of devices
+_SLICE = 100  # devices in one message on health: thousands would hold up a tick
+
+
+class ServerError(PoiseError):
+    """Why the server cannot start."""
+
+
+@dataclass
+class Options:
+    """Where a server listens, and for whom."""
+
+    host: str = "127.0.0.1"
+    port: int = 8760
+    tokens: dict[str, Any] = field(default_factory=dict)
+    hosts: tuple[str, ...] = ()
+    certificate: tuple[Path, Path] | None = None
+    """certificate and key, for HTTPS"""
+
+
+class Server:
+    """A hub, its sources, its recorder and whoever is connected, in one event loop."""
+
+    def __init__(
+        self, hub: Hub, sources: Sequence[Source] = (), options: Options | None = None, recorder: Recorder | None = None
+    ) -> None:
+        self.hub, self.sources, self.options, self.recorder = hub, sources, options or Options(), recorder
+        self.viewers: dict[Viewer, None] = {}
+        self.device_sockets: dict[DeviceSocket, None] = {}
+        self.listeners: set[asyncio.Queue[dict[str, Any]]] = set()
+        self.access = Access(self.options.host, self.options.tokens, self.options.hosts)
+        self.app = Gate(http.application(self), self.access, http.needed)
+        self.stopping = asyncio.Event()
+        self.began = time.monotonic()
+        self._frame = 0
+        self._changed = False
+        self._warming: set[Choice] = set()
+        self.refused = 0
+        """packets that no device could take"""
+        self._failure: BaseException | None = None
+        self._tasks: set[asyncio.Task[None]] = set()
+        hub.on_batch.append(self._to_viewers)
+        hub.on_event.append(self._tell_event)
+        hub.on_change.append(self._note_change)
+
+    # -- running --------------------------------------------------------------------------------------------------
+
+    async def run(self, ready: asyncio.Event | None = None) -> None:
+        """Serves until :attr:`stopping` is set or the process is told to stop. Raises :class:`ServerError`."""
+        from poise.live.serving import serve
+
+        with _listening(self.options) as sockets:
+            loop = asyncio.get_running_loop()
+            for number in (signal.SIGINT, signal.SIGTERM):
+                with suppress(NotImplementedError, RuntimeError, ValueError):
+                    loop.add_signal_handler(number, self.stopping.set)
+            if self.hub.watch is not None:
+                self.hub.watch.open()
+            if self.recorder is not None:
+                self.recorder.open(self.hub)
+            beginning = self.spawn(self._begin())
+            await asyncio.wait((beginning,), timeout=_HEAD_START)
+            feeding = [self.spawn(self._feed(source)) for source in self.sources]
+            self.spawn(self._ticking())
+            try:
+                await serve(self, sockets, ready)
+            finally:
+                for task in feeding:
+                    task.cancel()
+                while self.hub.starting and self._failure is None:  # their samples wait for a method to be loaded
+                    await asyncio.sleep(0.02)
+                for task in list(self._tasks):
+                    task.cancel()
+                await asyncio.gather(*self._tasks, return_exceptions=True)
+                while self._failure is None and self.hub.tick() is not None:
+                    pass
+                if self.hub.watch is not None:
+                    await asyncio.to_thread(self.hub.watch.close)
+                if self.recorder is not None:
+                    await asyncio.to_thread(self.recorder.close)
+        if self._failure is not None:
+            raise self._failure
+
+    def spawn(self, work: Any) -> asyncio.Task[None]:
+        """Runs *work* beside; where it fails, which is a fault of ours, the server ends and :meth:`run` raises it."""
+        task: asyncio.Task[None] = asyncio.get_running_loop().create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._done)
+        return task
+
+    def _done(self, task: asyncio.Task[None]) -> None:
+        self._tasks.discard(task)
+        if not task.cancelled() and (failure := task.exception()) is not None:
+            self._failure = failure
+            self.stopping.set()
+
+    async def _ticking(self) -> None:
+        due, forget, listed = 0.0, 0.0, 0.0
+        slices: list[list[Device]] = []
+        while True:
+            self.hub.tick()
+            now = time.monotonic()
+            if self.hub.wanting:
+                self._warm_wanted()
+            if self.recorder is not None:
+                self._acknowledge()
+            if self._changed and now > listed:
+                self._changed, listed = False, now + _LIST_EVERY
+                self._say(self.device_list)
+            if now > forget:
+                forget = now + _FLAGS_EVERY
+                self.hub.newest.forget_flags()
+            if now > due:
+                due, devices = now + _HEALTH_EVERY, list(self.hub.devices.values())
+                slices = [devices[k : k + _SLICE] for k in range(0, max(len(devices), 1), _SLICE)]
+            if slices:
+                self._say(partial(self.health, slices.pop()))
+            await asyncio.sleep(min(max(4.0 * self.hub.tick_cost, _QUICKEST), _SLOWEST))
+
+    async def _begin(self) -> None:
+        if self.hub.watch is not None:
+            await asyncio.to_thread(self.hub.watch.warm)
+        for choice in self.hub.methods:
+            await self._warm(choice)
+        gc.freeze()  # a compiler's many objects stay: to go over them again and again would hold up ticks by 0.1 s
+        while (device := self.hub.next_to_restore()) is not None:
+            try:
+                streams = await asyncio.to_thread(rebuilt, device)
+            except PoiseError as problem:
+                self.hub.event("refused", device, f"{device.name} begins anew: {problem}")
+                streams = []
+            self.hub.restore(device, streams)
+
+    def _warm_wanted(self) -> None:
+        for device in self.hub.wanting:
+            for each in device.wanted:
+                if isinstance(each, Choice) and each not in self._warming:
+                    self._warming.add(each)
+                    self.spawn(self._warm(each))
+
+    async def _warm(self, choice: Choice) -> None:
+        self._warming.add(choice)
+        try:
+            await asyncio.to_thread(choice.warm)
+            for device in list(self.hub.wanting):
+                self.hub.set_methods(device, self.hub.wanted(device))
+        finally:
+            self._warming.discard(choice)
+
+    async def _feed(self, source: Source) -> None:
+        """A source's packets to the hub; what goes wrong with it is an event, and other devices go on."""
+        try:
+            async for arrival in source.arrivals():
+                device = self.hub.devices.get(arrival.device)
+                try:
+                    device = self.hub.device(arrival.device, source.name)
+                    device.receive(arrival.rows, time.monotonic(), arrival.sequence)
+                except PoiseError as problem:
+                    self._refused(device, source.name, problem)
+            self.hub.event("end", None, f"{source.name} has come to its end")
+        except (PoiseError, OSError) as problem:
+            self.hub.event("failed", None, f"{source.name}: {problem}")
+
+    def _refused(self, device: Device | None, source: str, problem: PoiseError) -> None:
+        """Counts what a device should not have sent; says so at the first and then every thousandth time."""
+        self.refused += 1
+        if device is not None:
+            device.health.rejected += 1
+        if (self.refused if device is None else device.health.rejected) % 1000 == 1:
+            self.hub.event("refused", device, f"{device.name if device else source}: {problem}")
+
+    # -- what is said ---------------------------------------------------------------------------------------------
+
+    def next_frame(self) -> int:
+        self._frame += 1
+        return self._frame
+
+    def _say(self, message: Callable[[], dict[str, Any]]) -> None:
+        if self.viewers:
+            text = json.dumps(message())
+            for viewer in self.viewers:
+                viewer.say(text)
+
+    def _to_viewers(self, batch: Batch) -> None:
+        every = [viewer for viewer in self.viewers if viewer.wants_every]
+        if every:
+            frame = frames.attitudes(batch.records(), self.next_frame())
+            for viewer in every:
+                viewer.put(batch, frame)
+
+    def _tell_event(self, event: dict[str, Any]) -> None:
+        self._say(lambda: event)
+        for queue in self.listeners:
+            if queue.full():
+                queue.get_nowait()
+            queue.put_nowait(event)
+
+    def _note_change(self) -> None:
+        self._changed = True
+
+    def _acknowledge(self) -> None:
+        assert self.recorder is not None
+        told = self.recorder.news()
+        if told is None:
+            return
+        condition, durable = told
+        for each in list(self.device_sockets):
+            number = durable.get(each.device.name)
+            if condition is not None:
+                each.note(type="recording", **condition)
+            if number is not None:
+                each.note(type="ack", next=number, lost=self.recorder.lost_of(each.device.name))
+        if condition is not None:
+            self.hub.event("recording", None, condition["text"])
+
+    def hello(self, may_write: bool = False) -> dict[str, Any]:
+        """The first message to a viewer."""
+        return {
+            "type": "hello",
+            "protocol": frames.VERSION,
+            "server": f"poise {__version__}",
+            "time": time.time(),
+            "may_write": may_write,
+            "methods": described(),
+            "flags": {f.bit_length() - 1: [f.name, SENTENCES[f]] for f in Flag},
+            "recording": self.recorder.condition() if self.recorder else None,
+        }
+
+    def device_list(self) -> dict[str, Any]:
+        """All devices, for pages."""
+        return {"type": "devices", "devices": [device.described() for device in self.hub.devices.values()]}
+
+    def health(self, devices: Iterable[Device] | None = None) -> dict[str, Any]:
+        """How *devices* fare, all unless told."""
+        waits = self.hub.waits
+        now = time.monotonic()
+        return {
+            "type": "health",
+            "time": time.time(),
+            "devices": [device.condition(now) for device in devices or self.hub.devices.values()],
+            "viewers": len(self.viewers),
+            "wait_ms": {"p50": round(1e3 * waits.quantile(0.5), 3), "p99": round(1e3 * waits.quantile(0.99), 3)},
+            "recording": self.recorder.condition() if self.recorder else None,
+        }
+
+    def change(self, kind: str, asked: dict[str, Any]) -> None:
+        """What someone who may write asks for: ``methods`` or ``reset_heading``. Raises :class:`PoiseError`."""
+        device = self.hub.find(str(asked.get("device")))
+        if kind == "methods":
+            self.hub.set_methods(device, choices(asked.get("methods")))
+        else:
+            forward = asked.get("forward", "y")
+            if forward not in ("x", "y", "z", "-x", "-y", "-z"):
+                raise HubError(f"forward: expected a body axis such as y or -x, found {forward!r}")
+            self.hub.reset_heading(device, forward)
+
+    async def events(self, after: int) -> AsyncIterator[dict[str, Any]]:
+        """Events numbered above *after*, those of the past first."""
+        queue: asyncio.Queue[dict[str, Any]] = asyncio.Queue(1000)
+        self.listeners.add(queue)
+        try:
+            for event in [each for each in self.hub.events if each["number"] > after]:
+                yield event
+            while True:
+                yield await queue.get()
+        finally:
+            self.listeners.discard(queue)
+
+
+class _listening:
+    """The listening sockets of *options*, closed at the end. Raises :class:`ServerError` where they cannot be had."""
+
+    def __init__(self, options: Options) -> None:
+        self._options = options
+
+    def __enter__(self) -> list[socket.socket]:
+        host, port = self._options.host, self._options.port
+        try:
+            family, _, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[
+                0
+            ]
+        except (socket.gaierror, OverflowError) as problem:
+            raise ServerError(f"--host {host}: no such address ({problem})") from None
+        self._socket = socket.socket(family, socket.SOCK_STREAM)
+        self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            self._socket.bind(address)
+        except OSError as problem:
+            self._socket.close()
+            reason = "another program listens there; give another --port" if problem.errno in (48, 98) else problem
+            raise ServerError(f"cannot listen on {host} port {port}: {reason}") from None
+        self._socket.listen(_BACKLOG)
+        self._options.port = self._socket.getsockname()[1]
+        return [self._socket]
+
+    def __exit__(self, *_: object) -> None:
+        self._socket.close()

@@ -1,0 +1,61 @@
+"""The sources by the words of the command line."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from math import inf
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from poise.live.devices import DeviceError, Source
+
+if TYPE_CHECKING:
+    from poise.data.recording import Recording
+    from poise.live.described import Description
+
+WORDS = "ws, replay:FILE[@SPEED], udp:[HOST]:PORT, serial:PORT, mqtt://HOST[:PORT]/[TOPIC]"
+
+
+def source(word: str, read: Callable[[Path], Recording], description: Description | None = None) -> Source | None:
+    """The source that *word* names; None for ``ws``, devices that connect by themselves.
+
+    *description* is what the bytes of a serial port, datagrams and messages mean. Raises :class:`DeviceError` for a word that
+    names none.
+    """
+    kind, _, rest = word.partition(":")
+    if word == "ws":
+        return None
+    if kind == "replay" and rest:
+        from poise.live.replay import Replay
+
+        file, speed = _speed(rest)
+        return Replay(read(Path(file)), speed=speed)
+    if kind == "udp":
+        from poise.live.udp import Udp
+
+        host, _, port = rest.rpartition(":")
+        if not port.isdecimal() or not 0 <= int(port) <= 65535:
+            raise DeviceError(f"{word}: expected udp:[HOST]:PORT, udp::9000 for all addresses of this machine")
+        return Udp(host.strip("[]"), int(port), description)
+    if kind == "serial" and rest:
+        from poise.live.serial_port import SerialPort
+
+        return SerialPort(rest, description)
+    if kind in ("mqtt", "mqtts"):
+        from poise.live.mqtt import Mqtt
+
+        return Mqtt(word, description)
+    raise DeviceError(f"{word!r} is no source; expected one of {WORDS}")
+
+
+def _speed(text: str) -> tuple[str, float]:
+    found = re.fullmatch(r"(.+)@([\d.]+x?|max)", text)
+    if found is None:
+        return text, 1.0
+    if found[2] == "max":
+        return found[1], inf
+    speed = float(found[2].rstrip("x"))
+    if not 0.01 <= speed <= 1e6:
+        raise DeviceError(f"@{found[2]}: expected a speed from 0.01 to 1e6, or max")
+    return found[1], speed

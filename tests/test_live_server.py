@@ -1,0 +1,387 @@
+"""`poise.live` over real sockets: devices push, viewers see, and who may do what."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+
+import poise
+from live_helpers import METHOD, Running, ask, heard, made, rows_of, seen, send, serving, wait_for
+from poise.data.event import TipState
+from poise.live import frames
+from poise.live.access import Access, AccessError, parsed_tokens
+from poise.live.hub import Hub
+from poise.live.methods import Choice
+from poise.live.replay import Replay
+from poise.live.server import Options, Server, ServerError
+from poise.live.watching import Watch
+from poise.monitor import judge
+from poise.responses import Responses
+
+ALL, READ, DEVICE = "all-the-scopes-of-it", "may-only-read-of-it", "may-only-push-samples"
+
+
+@pytest.fixture(scope="module")
+def live() -> Iterator[Running]:
+    with serving() as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def guarded() -> Iterator[Running]:
+    with serving(tokens=parsed_tokens((ALL, f"read:{READ}", f"device:{DEVICE}"))) as running:
+        yield running
+
+
+def later(rows: NDArray[np.float64], seconds: float) -> NDArray[np.float64]:
+    """The last sample, so much later."""
+    last = rows[-1:].copy()
+    last[:, 0] += seconds
+    return last
+
+
+@pytest.mark.parametrize("size", [1, 7, 50])
+def test_a_device_that_pushes_gets_the_attitudes_of_estimate(live: Running, size: int) -> None:
+    recording = made(3.0, seed=size)
+    with live.viewer(every=True) as viewer, live.device(f"exact-{size}") as device:
+        assert heard(device, "welcome")["next"] == 0
+        send(device, rows_of(recording), size=size)
+        found = seen(viewer, len(recording))
+    expected = poise.estimate(poise.AdaptiveGain(), recording)
+    np.testing.assert_array_equal(found["quat"], expected.quat.astype("f4"))
+    np.testing.assert_array_equal(found["flags"], expected.flags)
+    np.testing.assert_array_equal(found["sequence"], np.arange(len(recording)))
+    np.testing.assert_array_equal(found["time"], recording.time)
+    np.testing.assert_array_equal(found["acc"], recording.acc.astype("f4"))
+    assert (np.abs(found["host"] - time.time()) < 20.0).all()
+
+
+def test_json_samples_are_the_same_samples(live: Running) -> None:
+    recording = made(1.0, seed=3)
+    with live.viewer(every=True) as viewer, live.device("json") as device:
+        for i in range(0, len(recording), 10):
+            part = recording[i : i + 10]
+            values = {name: getattr(part, name).tolist() for name in ("time", "gyr", "acc", "mag")}
+            device.send(json.dumps(values | {"sequence": i}))
+        found = seen(viewer, len(recording))
+    np.testing.assert_array_equal(found["quat"], poise.estimate(poise.AdaptiveGain(), recording).quat.astype("f4"))
+
+
+def test_samples_that_come_again_count_once_and_gaps_are_counted(live: Running) -> None:
+    rows = rows_of(made(2.0))
+    with live.device("again") as device:
+        send(device, rows[:100])
+        send(device, rows[80:120], first=80, size=15)
+        send(device, rows[150:], first=150)
+        health = live.hub.find("again").health
+        wait_for(lambda: health.samples == 170)
+    with live.device("again") as device:
+        assert heard(device, "welcome")["next"] == len(rows)
+    assert (health.repeated, health.lost) == (20, 30)
+
+
+def test_the_newest_wins_and_silence_is_said(live: Running) -> None:
+    rows = rows_of(made(1.0))
+    with live.viewer() as viewer, live.device("silent") as device:
+        ask(viewer, type="subscribe", devices=["silent"], rate=100)
+        send(device, rows)
+        last = seen(viewer, 1)[-1]
+        while last["flags"] & int(poise.Flag.SILENT) == 0:
+            last = seen(viewer, 1)[-1]
+        assert last["sequence"] == len(rows) - 1
+        assert not last["valid"]
+        assert np.isfinite(last["quat"]).all()
+        device.send(frames.encoded(later(rows, 0.2), len(rows)))
+        last = wait_for(lambda: seen(viewer, 1)[-1])
+        assert not last["flags"] & int(poise.Flag.SILENT)
+    state = live.http.get("/healthz").json()["devices"]
+    assert next(d for d in state if d["id"] == "silent")["silences"] >= 1
+
+
+def test_methods_change_without_a_sample_lost(live: Running) -> None:
+    recording = made(6.0)
+    rows = rows_of(recording)
+    with live.viewer(every=True) as viewer, live.device("changing") as device:
+        ask(viewer, type="subscribe", devices=["changing"], rate="every")
+        send(device, rows[:200])
+        first = seen(viewer, 200)
+        both = [{"name": METHOD}, {"name": METHOD, "settings": {"k_rest": 0.05}}]
+        assert ask(viewer, type="methods", device="changing", methods=both)["type"] == "done"
+        send(device, rows[200:400], first=200)
+        second = seen(viewer, 400)
+        answer = live.http.put("/devices/changing/methods", json=[both[1]])
+        assert answer.status_code == 200
+        send(device, rows[400:], first=400)
+        third = seen(viewer, 200)
+    expected = poise.estimate(poise.AdaptiveGain(), recording)
+    kept = np.concatenate([first, second[second["method"] == 0]])
+    np.testing.assert_array_equal(kept["quat"], expected.quat[:400].astype("f4"))
+    other = np.concatenate([second[second["method"] == 1], third])
+    np.testing.assert_array_equal(other["sequence"], np.arange(200, 600))
+    assert (third["method"] == 1).all()
+    turn = np.abs(np.sum(other["quat"][0] * kept["quat"][199]))
+    assert 2.0 * np.arccos(min(turn, 1.0)) < 0.1  # it begins where the device was
+
+
+def test_a_heading_is_reset(live: Running) -> None:
+    rows = rows_of(made(1.0))
+    with live.viewer() as viewer, live.device("forward") as device:
+        send(device, rows)
+        wait_for(lambda: live.hub.find("forward").health.samples == len(rows))
+        wait_for(lambda: live.hub.find("forward").runs[0].stream.latest is not None)
+        assert ask(viewer, type="reset_heading", device="forward", forward="y")["type"] == "done"
+        device.send(frames.encoded(later(rows, 0.01), len(rows)))
+        wait_for(lambda: live.http.get("/devices/forward/attitude").json()["sequence"] == len(rows))
+        found = live.http.get("/devices/forward/attitude").json()
+    assert min(found["heading_deg"], 360.0 - found["heading_deg"]) < 3.0
+    assert live.hub.find("forward").described()["methods"][0]["heading"] == "arbitrary"
+
+
+@pytest.mark.parametrize(
+    ("frame", "says"),
+    [
+        (b"", "16 bytes of header"),
+        (b"\x02" + bytes(95), "version 2"),
+        (frames.HEADER.pack(1, 7, 80, 1, 0) + bytes(80), "kind 7"),
+        (frames.HEADER.pack(1, 1, 80, 3, 0) + bytes(80), "need a frame of 256"),
+        (frames.HEADER.pack(1, 1, 72, 1, 0) + bytes(72), "80 or 96"),
+        (frames.HEADER.pack(1, 1, 80, 0, 0), "1 to 4096"),
+        ("{", "not JSON"),
+        ("[1]", "expected an object"),
+        ('{"time": 1, "gyr": [1], "acc": [1, 2, 3]}', "gyr"),
+        ('{"time": [], "gyr": [], "acc": []}', "1 to 4096"),
+        ('{"time": 1, "gyr": [1, 2, 3], "acc": [1, 2, 3], "sequence": -1}', "sequence"),
+    ],
+)
+def test_a_malformed_frame_is_an_error_with_its_reason(live: Running, frame: bytes | str, says: str) -> None:
+    with live.device("malformed") as device:
+        device.send(frame)
+        assert says in heard(device, "error")["message"]
+        send(device, rows_of(made(0.5)), first=live.hub.find("malformed").next)  # and it goes on
+    wait_for(lambda: live.hub.find("malformed").health.samples >= 50)
+
+
+def test_stamps_in_milliseconds_are_refused(live: Running) -> None:
+    rows = rows_of(made(0.5))
+    rows[:, 0] *= 1000.0
+    with live.device("milliseconds") as device:
+        send(device, rows, size=10)
+        assert "Multiply them by 0.001" in heard(device, "error")["message"]
+
+
+def test_ten_malformed_frames_close_the_connection_and_nobody_elses(live: Running) -> None:
+    with live.device("good") as good, live.device("bad") as bad:
+        for _ in range(10):
+            bad.send(b"nonsense")
+        with pytest.raises(ConnectionClosed) as closed:
+            while True:
+                bad.recv(timeout=20.0)
+        assert closed.value.rcvd is not None and closed.value.rcvd.code == 1008
+        send(good, rows_of(made(0.5)))
+        wait_for(lambda: live.hub.find("good").health.samples == 50)
+
+
+def test_a_device_far_above_its_rate_is_cut_off() -> None:
+    rows = np.tile(rows_of(made(1.0)), (10, 1))
+    rows[:, 0] = np.arange(len(rows)) / 1000.0
+    with serving(max_rate=500.0) as live, live.device("flood") as flood, live.device("calm") as calm:
+        with pytest.raises(ConnectionClosed):
+            for k in range(100):
+                send(flood, rows, first=k * len(rows), size=100)
+        assert any(event["kind"] == "throttled" and event["device"] == "flood" for event in list(live.hub.events))
+        send(calm, rows[:100])
+        wait_for(lambda: live.hub.find("calm").health.samples == 100)
+        assert live.hub.find("calm").health.lost == 0
+
+
+@pytest.mark.parametrize(
+    ("asked", "says"),
+    [
+        ({"type": "nonsense"}, "expected subscribe"),
+        ({"type": "subscribe", "rate": 0}, "rate"),
+        ({"type": "subscribe", "devices": "all"}, "list of names"),
+        ({"type": "methods", "device": "nobody", "methods": []}, "no device"),
+        ({"type": "methods", "device": "asked", "methods": []}, "1 to 8"),
+        ({"type": "methods", "device": "asked", "methods": [{"name": "magic"}]}, "no method 'magic'"),
+        ({"type": "methods", "device": "asked", "methods": [{"name": METHOD, "settings": {"x": 1}}]}, "no parameter"),
+        ({"type": "methods", "device": "asked", "methods": [{"name": METHOD, "settings": {"k_rest": -1}}]}, "k_rest"),
+        ({"type": "reset_heading", "device": "asked"}, "no attitude yet"),
+        ({"type": "reset_heading", "device": "asked", "forward": "up"}, "body axis"),
+    ],
+)
+def test_a_wish_that_cannot_be_is_answered_with_its_reason(live: Running, asked: dict[str, Any], says: str) -> None:
+    live.call(lambda: live.hub.device("asked"))
+    with live.viewer() as viewer:
+        answer = ask(viewer, **asked)
+        assert answer["type"] == "error"
+        assert says in answer["message"]
+
+
+def test_over_http(live: Running) -> None:
+    with live.device("web") as device:
+        assert live.http.get("/devices/web/attitude").status_code == 404
+        send(device, rows_of(made(1.0)))
+        wait_for(lambda: live.http.get("/devices/web/attitude").status_code == 200)
+        found = live.http.get("/devices/web/attitude").json()
+    assert found["device"] == "web"
+    assert len(found["quat_wxyz"]) == 4
+    assert "web" in {each["id"] for each in live.http.get("/devices").json()}
+    assert live.http.get("/devices/nobody/attitude").status_code == 404
+    assert live.http.get("/devices/web/attitude?method=magic").status_code == 400
+    assert live.http.put("/devices/web/methods", content=b"nonsense").status_code == 400
+    assert {each["name"] for each in live.http.get("/methods").json()} == set(poise.METHODS)
+    assert 'poise_device_samples_total{device="web"} 100' in live.http.get("/metrics").text
+    with live.http.stream("GET", "/events") as events:
+        lines = iter(events.iter_lines())
+        assert any("device web" in line for line in lines)
+
+
+def test_a_replay_is_a_device() -> None:
+    recording = made(3.0)
+    with serving(Replay(recording, "played", speed=20.0)) as live:
+        wait_for(lambda: live.hub.devices.get("played") and live.hub.find("played").health.samples == len(recording))
+        wait_for(lambda: any(event["kind"] == "end" for event in list(live.hub.events)))
+        stream = live.hub.find("played").runs[0].stream
+        expected = poise.estimate(poise.AdaptiveGain(), recording)
+        latest = wait_for(lambda: stream.latest)
+        np.testing.assert_array_equal(latest.quat[0], expected.quat[-1])
+
+
+# -- who may do what ------------------------------------------------------------------------------------------------
+
+
+def bearer(token: str) -> dict[str, str]:
+    return {"Authorization": f"Bearer {token}"}
+
+
+@pytest.mark.parametrize("token", [None, "x" * 20, ALL[:-1], ALL + "x", "-"])
+def test_without_the_token_nothing_is_upgraded(guarded: Running, token: str | None) -> None:
+    headers = {} if token is None else bearer(token)
+    for connecting in (guarded.viewer, lambda **options: guarded.device("x", **options)):
+        with pytest.raises(InvalidStatus) as refused, connecting(additional_headers=headers):
+            pass
+        assert refused.value.response.status_code == 401
+    assert guarded.http.get("/devices", headers=headers).status_code == 401
+    assert guarded.http.get("/healthz", headers=headers).json() == {"status": "ok"}
+
+
+def test_scopes(guarded: Running) -> None:
+    with guarded.viewer(additional_headers=bearer(READ)) as viewer:
+        assert "scope 'write'" in ask(viewer, type="methods", device="x", methods=[])["message"]
+    for connecting, token in ((guarded.viewer, DEVICE), (lambda **o: guarded.device("x", **o), READ)):
+        with pytest.raises(InvalidStatus), connecting(additional_headers=bearer(token)):
+            pass
+    with guarded.device("pushes", additional_headers=bearer(DEVICE)) as device:
+        heard(device, "welcome")
+    assert guarded.http.get("/devices", headers=bearer(READ)).status_code == 200
+    assert guarded.http.put("/devices/pushes/methods", headers=bearer(READ), json=[]).status_code == 401
+    assert guarded.http.put("/devices/pushes/methods", headers=bearer(ALL), json=[]).status_code == 400
+    with guarded.viewer(subprotocols=["poise", f"bearer.{READ}"]) as page:  # as a page has to
+        assert page.subprotocol == "poise"
+
+
+@pytest.mark.parametrize("origin", ["https://evil.example", "null", "http://127.0.0.1:1", "http://localhost"])
+def test_foreign_origins_are_refused(live: Running, origin: str) -> None:
+    with pytest.raises(InvalidStatus) as refused, live.viewer(additional_headers={"Origin": origin}):
+        pass
+    assert refused.value.response.status_code == 403
+    assert live.http.get("/devices", headers={"Origin": origin}).status_code == 403
+
+
+def test_the_own_origin_and_known_hosts_only(live: Running) -> None:
+    with live.viewer(additional_headers={"Origin": f"http://{live.address}"}) as viewer:
+        heard(viewer, "hello")
+    assert live.http.get("/devices", headers={"Host": "evil.example"}).status_code == 403
+    assert live.http.get("/devices", headers={"Host": "localhost:1"}).status_code == 200
+    headers = live.http.get("/").headers
+    assert "default-src 'none'" in headers["content-security-policy"]
+    assert headers["x-content-type-options"] == "nosniff"
+
+
+def test_beyond_loopback_only_with_a_token() -> None:
+    with pytest.raises(AccessError, match="give --token"):
+        Access("0.0.0.0", {})
+    Access("0.0.0.0", parsed_tokens((ALL,)))
+    for text in ("short", "read:short", "root:" + ALL, "with blanks " + ALL):
+        with pytest.raises(AccessError) as refused:
+            parsed_tokens((text,))
+        assert text.rpartition(":")[2] not in str(refused.value)
+
+
+def test_a_busy_port_is_named(live: Running) -> None:
+    server = Server(Hub((Choice(METHOD),)), (), Options(port=live.server.options.port))
+    with pytest.raises(ServerError, match="another program listens there"):
+        asyncio.run(server.run())
+
+
+def test_a_page_needs_no_token_but_holds_nothing(guarded: Running) -> None:
+    answer = httpx.get(f"http://{guarded.address}/")
+    assert answer.status_code == 200
+
+
+def test_a_device_that_tips_over_is_said_and_answered(tmp_path: Path) -> None:
+    lean = np.concatenate([np.zeros(200), np.linspace(0.0, 1.5, 100), np.full(100, 1.5)])  # rad, forward about x
+    rate = np.gradient(lean, 0.01)
+    zero = np.zeros_like(lean)
+    rows = np.column_stack(
+        [
+            np.arange(400) / 100,
+            -rate,
+            zero,
+            zero,
+            zero,
+            -9.81 * np.sin(lean),
+            9.81 * np.cos(lean),
+            *[np.full(400, np.nan)] * 3,
+        ]
+    )
+    config = tmp_path / "robot.toml"
+    config.write_text(
+        f'[responders.note]\ntype = "log"\nfile = "{tmp_path / "said.log"}"\n'
+        '[[stages]]\nname = "stop"\nstate = "tipping"\nfire = ["note"]\n'
+    )
+    watch = Watch(responses={"robot": Responses.from_toml(config)})
+    with serving(watch=watch) as live, live.viewer() as viewer, live.device("robot") as device:
+        ask(viewer, type="subscribe", rate=100)
+        send(device, rows, size=5)
+        states = []
+        while "UNKNOWN" not in states[1:]:  # it falls silent at the end
+            event = heard(viewer, "event")
+            if event["kind"] == "tip":
+                states.append(event["state"])
+                assert event["device"] == "robot"
+        record = live.call(lambda: live.hub.latest(live.hub.find("robot")).copy())
+    assert states[0] == "UPRIGHT"
+    assert "TIPPING" in states or "FALLEN" in states
+    assert record["tip"] == TipState.UNKNOWN
+    expected = judge(poise.estimate(poise.AdaptiveGain(), recording := as_recording(rows)), recording)
+    assert states[: len(expected.events)] == [event.state.name for event in expected.events]
+    assert "stop" in (tmp_path / "said.log").read_text()
+
+
+def as_recording(rows: NDArray[np.float64]) -> poise.Recording:
+    return poise.Recording(rows[:, 0], rows[:, 1:4], rows[:, 4:7], rows[:, 7:10])
+
+
+def test_a_fault_of_ours_ends_the_server_loudly() -> None:
+    class Faulty(Exception):
+        pass
+
+    def fail(batch: object) -> None:
+        raise Faulty("ours")
+
+    with pytest.raises(Faulty), serving() as live:
+        live.hub.on_batch.append(fail)
+        with live.device("any") as device:
+            send(device, rows_of(made(0.5)))
+            wait_for(live.server.stopping.is_set)
