@@ -16,8 +16,10 @@ _HOME = {
     "AdaptiveGain": "poise.estimators.adaptive_gain",
     "Armband": "poise.estimators.armband",
     "Attitude": "poise.data.attitude",
+    "AttitudeControl": "poise.control.attitude",
     "Comparison": "poise.comparison",
     "Conformance": "poise.conformance",
+    "Controller": "poise.control.controller",
     "Diagnosis": "poise.doctor",
     "Errors": "poise.evaluation",
     "Flag": "poise.data.flags",
@@ -31,8 +33,10 @@ _HOME = {
     "Recording": "poise.data.recording",
     "RestBias": "poise.estimators.rest_bias",
     "SelfCalibrating": "poise.estimators.self_calibrating.causal",
+    "Slew": "poise.control.target",
     "Slewed": "poise.estimators.slewed",
     "Stream": "poise.estimators.engine",
+    "Target": "poise.control.target",
     "Tilt": "poise.estimators.tilt",
     "TwoStage": "poise.estimators.two_stage",
     "compare": "poise.comparison",
@@ -42,6 +46,7 @@ _HOME = {
     "estimate_chunks": "poise.estimators.engine",
     "estimate_file": "poise.file_to_file",
     "evaluate": "poise.evaluation",
+    "lqr": "poise.control.design",
     "read": "poise.formats",
     "read_attitude": "poise.formats",
     "read_learned": "poise.formats",
@@ -58,6 +63,11 @@ if TYPE_CHECKING:
     from poise.comparison import compare as compare
     from poise.conformance import Conformance as Conformance
     from poise.conformance import conform as conform
+    from poise.control.attitude import AttitudeControl as AttitudeControl
+    from poise.control.controller import Controller as Controller
+    from poise.control.design import lqr as lqr
+    from poise.control.target import Slew as Slew
+    from poise.control.target import Target as Target
     from poise.data.attitude import Attitude as Attitude
     from poise.data.flags import Flag as Flag
     from poise.data.learned import Learned as Learned
