@@ -61,8 +61,16 @@ def prepared(method: Any) -> Any:
         raise MethodError(f"{method.__name__} is a class; give a method: {method.__name__}()")
     if not (isinstance(method, tuple) and hasattr(method, "_fields") and hasattr(method, "step")):
         raise MethodError(f"expected a method such as TwoStage(), found {type(method).__name__}")
-    cls = type(method)
-    return cls(**{p.name: _checked(f"{cls.__name__}.{p.name}", getattr(method, p.name), p) for p in parameters(cls)})
+    return checked(method)
+
+
+def checked(values: Any) -> Any:
+    """*values*, any NamedTuple declared like a method's parameters, with every field of the exact type and in its range.
+
+    Raises :class:`MethodError` where a value is not.
+    """
+    cls: type = type(values)
+    return cls(**{p.name: _checked(f"{cls.__name__}.{p.name}", getattr(values, p.name), p) for p in parameters(cls)})
 
 
 def _checked(name: str, value: Any, parameter: Parameter) -> Any:

@@ -70,14 +70,20 @@ class Sensor:
         limit=16 * STANDARD_GRAVITY,
         resolution=32 * STANDARD_GRAVITY / 2**16,
     )
-    mag: Triad = Triad(noise=0.05, bias=1.0, scale=0.01, misalignment=0.01, limit=4912.0, resolution=0.15)
-    """its bias is the hard iron, its scale and misalignment the soft iron"""
+    mag: Triad | None = Triad(noise=0.05, bias=1.0, scale=0.01, misalignment=0.01, limit=4912.0, resolution=0.15)
+    """its bias is the hard iron, its scale and misalignment the soft iron; None where there is no magnetometer"""
     mag_rate: float | None = None
     """samples per second of the magnetometer; None for that of the gyroscope"""
     mag_delay: float = 0.005
     """s by which the magnetometer's stamps are late"""
     jitter: float = 50e-6
     """s, standard deviation of the time stamps"""
+    dropout: float = 0.0
+    """the share of samples that never arrive"""
+    latency: float = 0.0
+    """s from a sample's instant to its arrival; matters live only (:class:`~poise.simulation.device.Device`)"""
+    latency_jitter: float = 0.0
+    """s, what a sample comes later still: the size of a normal deviate; samples arrive in order"""
 
 
 TYPICAL = Sensor()
@@ -103,17 +109,17 @@ def measure(
     """
     if len(motion) < 2:
         raise RecordingError(f"a motion of at least 2 rows can be measured, found {len(motion)}")
-    for_gyr, for_acc, for_mag, for_time = np.random.default_rng(seed).spawn(4)
+    for_gyr, for_acc, for_mag, for_time, for_loss = np.random.default_rng(seed).spawn(5)
     rate = (len(motion) - 1) / float(motion.time[-1] - motion.time[0])
     stamps = _stamps(motion.time, sensor.jitter, for_time)
-    gyr, bias = _readings(_mean_rates(motion), sensor.gyr, rate, for_gyr)
+    gyr, bias = Readings(sensor.gyr, rate, for_gyr).of(_mean_rates(motion))
     force = arrays.rotate(arrays.conjugate(motion.quat), motion.acceleration + np.array([0.0, 0.0, gravity]))
-    acc, _ = _readings(force, sensor.acc, rate, for_acc)
+    acc, _ = Readings(sensor.acc, rate, for_acc).of(force)
     mag = _magnetometer(motion, stamps, sensor, np.array(field, float), rate, for_mag)
     moving = (np.linalg.norm(motion.rate, axis=1) > _MOVING_RATE) | (
         np.linalg.norm(motion.acceleration, axis=1) > _MOVING_ACCELERATION
     )
-    return Recording.from_sensors(
+    recording = Recording.from_sensors(
         (stamps, gyr),
         (stamps, acc),
         mag,
@@ -123,6 +129,7 @@ def measure(
         name=name,
         source="simulation",
     )
+    return recording if sensor.dropout == 0.0 else recording[for_loss.random(len(recording)) >= sensor.dropout]
 
 
 def _mean_rates(motion: Motion) -> Floats:
@@ -137,8 +144,10 @@ def _mean_rates(motion: Motion) -> Floats:
 
 def _magnetometer(
     motion: Motion, stamps: Floats, sensor: Sensor, field: Floats, rate: float, rng: np.random.Generator
-) -> tuple[Floats, Floats]:
+) -> tuple[Floats, Floats] | None:
     """The magnetometer's own stamps (m,) s and readings (m, 3) µT."""
+    if sensor.mag is None:
+        return None
     time = motion.time
     if sensor.mag_rate is not None:
         rate = sensor.mag_rate
@@ -148,24 +157,36 @@ def _magnetometer(
     before = np.clip(np.searchsorted(motion.time, instants, side="right") - 1, 0, len(motion) - 2)
     part = (instants - motion.time[before]) / (motion.time[before + 1] - motion.time[before])
     quat = arrays.slerp(motion.quat[before], motion.quat[before + 1], part)
-    readings, _ = _readings(arrays.rotate(arrays.conjugate(quat), field), sensor.mag, rate, rng)
+    readings, _ = Readings(sensor.mag, rate, rng).of(arrays.rotate(arrays.conjugate(quat), field))
     return stamps, readings
 
 
-def _readings(true: Floats, triad: Triad, rate: float, rng: np.random.Generator) -> tuple[Floats, Floats]:
-    """The readings (n, 3) of true values, and the bias (n, 3) in them."""
-    cross = triad.misalignment * rng.standard_normal((3, 3))
-    np.fill_diagonal(cross, triad.scale * rng.standard_normal(3))
-    drawn = rng.standard_normal(3)
-    bias = triad.bias * drawn if isinstance(triad.bias, (int, float)) else np.array(triad.bias, float)
-    steps = rng.standard_normal(true.shape)
-    steps[0] = 0.0
-    bias = bias + triad.walk / np.sqrt(rate) * np.cumsum(steps, axis=0)
-    noise = triad.noise * np.sqrt(rate) * rng.standard_normal(true.shape)
-    readings = np.clip(true + true @ cross.T + bias + noise, -triad.limit, triad.limit)
-    if triad.resolution > 0:
-        readings = np.round(readings / triad.resolution) * triad.resolution
-    return readings, bias
+class Readings:
+    """What one three-axis sensor says of true values that come in blocks of any length."""
+
+    def __init__(self, triad: Triad, rate: float, rng: np.random.Generator) -> None:
+        self._triad, self._rng, self._root = triad, rng, float(np.sqrt(rate))
+        cross = triad.misalignment * rng.standard_normal((3, 3))
+        np.fill_diagonal(cross, triad.scale * rng.standard_normal(3))
+        drawn = rng.standard_normal(3)
+        self._cross = cross.T
+        self.bias = triad.bias * drawn if isinstance(triad.bias, (int, float)) else np.array(triad.bias, float)
+        """(3,) in the last reading"""
+        self._first = True
+
+    def of(self, true: Floats) -> tuple[Floats, Floats]:
+        """The readings (n, 3) of the next true values, and the bias (n, 3) in them."""
+        triad = self._triad
+        steps = self._rng.standard_normal(true.shape)
+        if self._first:
+            steps[0], self._first = 0.0, False
+        bias = self.bias + triad.walk / self._root * np.cumsum(steps, axis=0)
+        self.bias = bias[-1]
+        noise = triad.noise * self._root * self._rng.standard_normal(true.shape)
+        readings = np.clip(true + true @ self._cross + bias + noise, -triad.limit, triad.limit)
+        if triad.resolution > 0:
+            readings = np.round(readings / triad.resolution) * triad.resolution
+        return readings, bias
 
 
 def _stamps(time: Floats, jitter: float, rng: np.random.Generator) -> Floats:
