@@ -86,7 +86,8 @@ def _target(values: Floats) -> Target:
 
 
 @compiled
-def _output(row: Floats, dt: float, flags: int) -> Output:
+def output_of(row: Floats, dt: float, flags: int) -> Output:
+    """A row of an attitude as kernels see it."""
     attitude = Quat(float(row[0]), float(row[1]), float(row[2]), float(row[3]))
     return Output(dt, attitude, _vector(row, 4), _vector(row, 7), _vector(row, 10), _vector(row, 13), flags)
 
@@ -97,7 +98,7 @@ assert (QUAT.start, RATE.start, BIAS.start, SIGMA.start, BIAS_SIGMA.start) == (0
 @entry
 def begin(law: Any, row: Floats, flags: int, target: Floats, clock: Floats) -> Any:
     """The memory of a control law, started from the first row of an attitude."""
-    return Memory(law, start(law, _output(row, 0.0, flags), _target(target)), clock)
+    return Memory(law, start(law, output_of(row, 0.0, flags), _target(target)), clock)
 
 
 @entry
@@ -108,7 +109,7 @@ def advance(
     law, state, clock = memory.method, memory.state, memory.aside
     for i in range(len(time)):
         now = float(time[i])
-        out = _output(table[i], now - float(clock[0]), int(flags[i]))
+        out = output_of(table[i], now - float(clock[0]), int(flags[i]))
         state = step(law, state, out, _target(targets[min(i, len(targets) - 1)]))
         told = state.inner
         torques[i, 0], torques[i, 1], torques[i, 2] = told.torque.x, told.torque.y, told.torque.z
