@@ -9,13 +9,30 @@ from __future__ import annotations
 from typing import Any
 
 from poise.simulation.parts import names as sensor_names
+from poise.simulation.worlds.arm import Arm
+from poise.simulation.worlds.attitude import AttitudeBody
 from poise.simulation.worlds.balance import Balance
+from poise.simulation.worlds.handle import Handle
 from poise.simulation.worlds.physics import WorldError
 from poise.simulation.worlds.world import Driver, Truth, World, run, stream
 
-WORLDS: dict[str, type[World]] = {world.name: world for world in (Balance,)}
+WORLDS: dict[str, type[World]] = {world.name: world for world in (Balance, AttitudeBody, Arm, Handle)}
 
-__all__ = ["WORLDS", "Balance", "Driver", "Truth", "World", "WorldError", "make", "run", "sensor_names", "stream"]
+__all__ = [
+    "WORLDS",
+    "Arm",
+    "AttitudeBody",
+    "Balance",
+    "Handle",
+    "Driver",
+    "Truth",
+    "World",
+    "WorldError",
+    "make",
+    "run",
+    "sensor_names",
+    "stream",
+]
 
 
 def make(name: str, **options: Any) -> World:
