@@ -15,6 +15,7 @@ from poise.cli.estimate import estimate
 from poise.cli.evaluate import evaluate
 from poise.cli.methods import methods
 from poise.cli.plot import plot
+from poise.cli.simulate import simulate
 from poise.cli.sniff import sniff
 
 app = App(
@@ -38,6 +39,7 @@ app.command(doctor)
 app.command(sniff)
 app.command(methods)
 app.command(demo)
+app.command(simulate)
 
 
 def main() -> None:

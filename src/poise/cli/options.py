@@ -183,7 +183,7 @@ class Running:
             name = name.strip().replace("-", "_")
             if name not in kinds or not value:
                 usage(f"--set {text!r}: expected NAME=VALUE with a NAME of {self.method}: {', '.join(kinds)}")
-            chosen[name] = _parsed(value.strip(), kinds[name].kind)
+            chosen[name] = parsed(value.strip(), kinds[name].kind)
         if (angle := self._declination()) is not None:
             if "declination" not in kinds:
                 usage(f"{self.method} has no heading from a magnetometer, so a declination means nothing to it")
@@ -315,13 +315,14 @@ def _checked_declination(degrees: float) -> float:
     return math.radians(degrees)
 
 
-def _parsed(text: str, kind: Any) -> Any:
+def parsed(text: str, kind: Any) -> Any:
+    """The value of *text* for a parameter of *kind*; a text that is no number stays one, to be refused by name."""
     from poise.estimators.parameters import Interval
 
     if kind is bool and text.lower() in ("true", "yes", "on", "1", "false", "no", "off", "0"):
         return text.lower() in ("true", "yes", "on", "1")
     if kind == Interval:
-        return None if text.lower() == "none" else tuple(_parsed(end, float) for end in text.split(","))
+        return None if text.lower() == "none" else tuple(parsed(end, float) for end in text.split(","))
     if kind in (int, float):
         try:
             return float(text)

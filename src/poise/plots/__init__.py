@@ -6,6 +6,7 @@ from poise.plots.comparison import comparison_figure
 from poise.plots.diagnosis import diagnosis_figure
 from poise.plots.inline import inline_svg
 from poise.plots.learning import learning_figure
+from poise.plots.pictures import save_picture
 from poise.plots.recording import recording_figure
 from poise.plots.style import FORMATS, POINTS, save_figure
 
@@ -19,4 +20,5 @@ __all__ = [
     "learning_figure",
     "recording_figure",
     "save_figure",
+    "save_picture",
 ]

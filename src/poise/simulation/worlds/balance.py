@@ -117,7 +117,7 @@ class Balance(World):
         return np.round(np.array([self._left[0][0], self._right[0][0]]) / step) * step
 
     def driver(self) -> Driver:
-        """Balances and drives about at up to 0.3 m/s, by the truth."""
+        """Balances and drives about at up to 0.3 m/s, by the truth; for loops with an estimator see `poise balance`."""
         return _Driver(self.seed)
 
     def _ridges(self) -> str:

@@ -27,6 +27,10 @@ class WorldError(PoiseError, ValueError):
     """A world, or an option of one, that cannot be."""
 
 
+class MissingExtra(WorldError):
+    """MuJoCo is not installed."""
+
+
 class Physics:
     """The model in *xml*, at rest in its first position, stepped by *step* seconds."""
 
@@ -115,7 +119,7 @@ def _mujoco() -> Any:
     try:
         import mujoco
     except ImportError as problem:
-        raise WorldError(f'worlds need MuJoCo ({problem}): pip install "poise[sim]"') from None
+        raise MissingExtra(f'worlds need MuJoCo ({problem}): pip install "poise[sim]"') from None
     return mujoco
 
 
