@@ -31,6 +31,7 @@ _HOME = {
     "Packet": "poise.data.packet",
     "PoiseError": "poise.errors",
     "Recording": "poise.data.recording",
+    "Responses": "poise.responses",
     "RestBias": "poise.estimators.rest_bias",
     "SelfCalibrating": "poise.estimators.self_calibrating.causal",
     "Slew": "poise.control.target",
@@ -100,6 +101,7 @@ if TYPE_CHECKING:
     from poise.formats import read_learned as read_learned
     from poise.formats import sniff as sniff
     from poise.formats import write as write
+    from poise.responses import Responses as Responses
 
 
 def __getattr__(name: str) -> Any:

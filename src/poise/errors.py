@@ -19,3 +19,7 @@ class MethodError(PoiseError, ValueError):
 
 class StateError(PoiseError, ValueError):
     """A saved stream that does not belong to this method, version or parameter set."""
+
+
+class ResponseError(PoiseError, ValueError):
+    """A response that is asked for wrongly or could not be given; the message says what to install or to change."""

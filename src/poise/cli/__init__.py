@@ -15,6 +15,7 @@ from poise.cli.estimate import estimate
 from poise.cli.evaluate import evaluate
 from poise.cli.methods import methods
 from poise.cli.plot import plot
+from poise.cli.respond import respond
 from poise.cli.simulate import simulate
 from poise.cli.sniff import sniff
 
@@ -36,6 +37,7 @@ app.command(compare)
 app.command(conform)
 app.command(plot)
 app.command(doctor)
+app.command(respond)
 app.command(sniff)
 app.command(methods)
 app.command(demo)
