@@ -99,8 +99,13 @@ class BalanceControl(NamedTuple):
         """
         name = cls.__name__
         m, h = positive(name, "body_mass", body_mass, "kg"), positive(name, "height", height, "m")
-        r, mw = positive(name, "wheel_radius", wheel_radius, "m"), positive(name, "wheel_mass", wheel_mass, "kg", zero=True)
-        ib = m * (2.0 * h) ** 2 / 12.0 if body_inertia is None else positive(name, "body_inertia", body_inertia, "kg m²")
+        r, mw = (
+            positive(name, "wheel_radius", wheel_radius, "m"),
+            positive(name, "wheel_mass", wheel_mass, "kg", zero=True),
+        )
+        ib = (
+            m * (2.0 * h) ** 2 / 12.0 if body_inertia is None else positive(name, "body_inertia", body_inertia, "kg m²")
+        )
         given = 0.5 * mw * r * r if wheel_inertia is None else wheel_inertia
         iw = positive(name, "wheel_inertia", given, "kg m²", zero=True)
         mass = np.array([[m + mw + iw / r**2, m * h], [m * h, ib + m * h * h]])
@@ -108,7 +113,11 @@ class BalanceControl(NamedTuple):
         a, b = np.zeros((4, 4)), np.zeros((4, 1))
         a[0, 1] = a[2, 3] = 1.0
         a[[1, 3], 2], b[[1, 3], 0] = by_lean, by_torque
-        sizes = (positive(name, "way", way), positive(name, "speed", speed), radians(positive(name, "lean_deg", lean_deg)))
+        sizes = (
+            positive(name, "way", way),
+            positive(name, "speed", speed),
+            radians(positive(name, "lean_deg", lean_deg)),
+        )
         cost = np.diag([*(each**-2.0 for each in sizes), 0.0])
         gains = -lqr(a, b, cost, positive(name, "torque", torque) ** -2.0)[0]
         return cls(*(float(each) for each in gains), r, **limits)
