@@ -7,6 +7,7 @@ import sys
 
 from cyclopts import App, CycloptsError, Parameter
 
+from poise.cli.balance import balance
 from poise.cli.compare import compare
 from poise.cli.conform import conform
 from poise.cli.demo import demo
@@ -42,6 +43,7 @@ app.command(sniff)
 app.command(methods)
 app.command(demo)
 app.command(simulate)
+app.command(balance)
 
 
 def main() -> None:

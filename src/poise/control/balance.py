@@ -120,7 +120,8 @@ class BalanceControl(NamedTuple):
         )
         cost = np.diag([*(each**-2.0 for each in sizes), 0.0])
         gains = -lqr(a, b, cost, positive(name, "torque", torque) ** -2.0)[0]
-        return cls(*(float(each) for each in gains), r, **limits)
+        k_way, k_speed, k_lean, k_rate = (float(each) for each in gains)
+        return cls(k_way, k_speed, k_lean, k_rate, r, **limits)
 
     def start(self, out: Output, wheels: Wheels, drive: Drive) -> State:
         way = _way(self, out, wheels)
