@@ -46,6 +46,7 @@ def balance_figure(run: BalanceRun, moments: list[tuple[float, NDArray[np.uint8]
         ax.set_title(f"{moment:.2f} s", fontsize=9.5, color=INK)
     axes = [figure.add_subplot(grid[i, :]) for i in range(len(shares) - 3, len(shares))]
     for ax in axes[:-1]:
+        ax.sharex(axes[-1])
         ax.tick_params(labelbottom=False)
     time = run["time"]
     lean, speed, torque = axes
