@@ -16,8 +16,10 @@ _HOME = {
     "AdaptiveGain": "poise.estimators.adaptive_gain",
     "Armband": "poise.estimators.armband",
     "Attitude": "poise.data.attitude",
+    "AttitudeControl": "poise.control.attitude",
     "Comparison": "poise.comparison",
     "Conformance": "poise.conformance",
+    "Controller": "poise.control.controller",
     "Diagnosis": "poise.doctor",
     "Errors": "poise.evaluation",
     "Flag": "poise.data.flags",
@@ -33,8 +35,10 @@ _HOME = {
     "Responses": "poise.responses",
     "RestBias": "poise.estimators.rest_bias",
     "SelfCalibrating": "poise.estimators.self_calibrating.causal",
+    "Slew": "poise.control.target",
     "Slewed": "poise.estimators.slewed",
     "Stream": "poise.estimators.engine",
+    "Target": "poise.control.target",
     "Tilt": "poise.estimators.tilt",
     "TipOver": "poise.monitor",
     "TwoStage": "poise.estimators.two_stage",
@@ -45,6 +49,7 @@ _HOME = {
     "estimate_chunks": "poise.estimators.engine",
     "estimate_file": "poise.file_to_file",
     "evaluate": "poise.evaluation",
+    "lqr": "poise.control.design",
     "read": "poise.formats",
     "read_attitude": "poise.formats",
     "read_learned": "poise.formats",
@@ -61,6 +66,11 @@ if TYPE_CHECKING:
     from poise.comparison import compare as compare
     from poise.conformance import Conformance as Conformance
     from poise.conformance import conform as conform
+    from poise.control.attitude import AttitudeControl as AttitudeControl
+    from poise.control.controller import Controller as Controller
+    from poise.control.design import lqr as lqr
+    from poise.control.target import Slew as Slew
+    from poise.control.target import Target as Target
     from poise.data.attitude import Attitude as Attitude
     from poise.data.flags import Flag as Flag
     from poise.data.learned import Learned as Learned

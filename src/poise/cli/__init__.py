@@ -7,6 +7,7 @@ import sys
 
 from cyclopts import App, CycloptsError, Parameter
 
+from poise.cli.balance import balance
 from poise.cli.compare import compare
 from poise.cli.conform import conform
 from poise.cli.demo import demo
@@ -48,6 +49,7 @@ app.command(recover)
 app.command(methods)
 app.command(demo)
 app.command(simulate)
+app.command(balance)
 
 
 def main() -> None:

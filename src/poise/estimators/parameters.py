@@ -10,6 +10,8 @@ import numpy as np
 
 from poise.errors import MethodError
 from poise.math.compiled import Choice
+from poise.math.matrices import Mat3
+from poise.math.vectors import Vec3
 
 Interval = tuple[float, float] | None  # None stands for the whole range that the parameter is declared with
 
@@ -84,6 +86,11 @@ def _checked(name: str, value: Any, parameter: Parameter) -> Any:
         return _interval(name, value, parameter)
     if parameter.kind in (int, float):
         return _number(name, value, parameter)
+    if parameter.kind is Vec3:
+        return Vec3(*(float(_number(name, each, parameter)) for each in _parts(name, value, "three numbers")))
+    if parameter.kind is Mat3:
+        row = parameter._replace(kind=Vec3)
+        return Mat3(*(_checked(name, each, row) for each in _parts(name, value, "three rows of three numbers")))
     if parameter.kind is Any or isinstance(value, type) or hasattr(value, "step"):  # a method inside a wrapper
         return prepared(value)
     return value
@@ -98,6 +105,12 @@ def _interval(name: str, value: Any, parameter: Parameter) -> tuple[float, float
     if not low < high:
         raise MethodError(f"{name}: expected the lower end first, found {value!r}")
     return low, high
+
+
+def _parts(name: str, value: Any, expected: str) -> tuple[Any, ...]:
+    if not isinstance(value, (tuple, list, np.ndarray)) or len(value) != 3:
+        raise MethodError(f"{name}: expected {expected}, found {value!r}")
+    return tuple(value)
 
 
 def _number(name: str, value: Any, parameter: Parameter) -> float | int:

@@ -46,7 +46,8 @@ def source_stamp() -> str:
     Numba's own stamp covers the file of the outermost kernel only, so an edited helper would go unnoticed (numba #1833).
     """
     package = Path(__file__).parents[1]
-    files = [path for folder in ("math", "data", "estimators", "monitor") for path in (package / folder).rglob("*.py")]
+    folders = ("math", "data", "estimators", "control", "monitor")
+    files = [path for folder in folders for path in (package / folder).rglob("*.py")]
     files += package.glob("*.py")
     return hashlib.sha256(b"\0".join(path.read_bytes() for path in sorted(files))).hexdigest()
 

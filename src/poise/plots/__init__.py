@@ -2,6 +2,7 @@
 it is touched."""
 
 from poise.plots.attitude import attitude_figure
+from poise.plots.balancing import balance_figure
 from poise.plots.comparison import comparison_figure
 from poise.plots.diagnosis import diagnosis_figure
 from poise.plots.inline import inline_svg
@@ -15,6 +16,7 @@ __all__ = [
     "FORMATS",
     "POINTS",
     "attitude_figure",
+    "balance_figure",
     "comparison_figure",
     "diagnosis_figure",
     "inline_svg",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 import warnings
@@ -33,6 +34,16 @@ class Relay(Responder):
     answers: ClassVar[frozenset[Kind]] = frozenset(("fired", "released", "test"))
     acts: ClassVar[bool] = True
     immediate: ClassVar[bool] = True
+
+    @property
+    def edge(self) -> float:
+        """s, ``time.monotonic()`` when the pin was last seen to follow; NaN before."""
+        return getattr(self, "_edge", math.nan)
+
+    @property
+    def cut(self) -> bool:
+        """Is the power cut? Known from the pin, once it is open."""
+        return bool(self._device.value)
 
     def check(self) -> str:
         factory = self._factory()
@@ -80,6 +91,7 @@ class Relay(Responder):
         try:
             self._device.value = cut
             found = bool(self._device.value)
+            self._edge = time.monotonic()
         except Exception as problem:  # whatever a pin's driver raises
             raise ResponseError(f"pin {self.pin} cannot be driven: {problem}") from None
         if found != cut:

@@ -1,0 +1,48 @@
+"""What a loop knows of its body: an estimator behind the world's sensor, or, to compare with, the truth itself."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from poise.data.attitude import COLUMNS, QUAT, RATE, Attitude
+from poise.data.packet import Packet
+from poise.errors import MethodError
+from poise.estimators import METHODS
+from poise.estimators.engine import Stream
+from poise.simulation.worlds import World
+
+Floats = NDArray[np.float64]
+TRUTH = "truth"
+
+
+class Seen(NamedTuple):
+    """One sample and what was made of it."""
+
+    packet: Packet
+    attitude: Attitude
+
+
+class Eyes:
+    """The estimator called *method* on the sensor of *world*; ``"truth"`` is the world's own attitude and rate."""
+
+    def __init__(self, method: str, world: World) -> None:
+        if method != TRUTH and method not in METHODS:
+            raise MethodError(f"no method {method!r}; there are {', '.join(METHODS)}, and {TRUTH} to compare with")
+        self._world = world
+        self._stream: Any = None if method == TRUTH else Stream(METHODS[method]())
+
+    def see(self, packets: list[Packet]) -> list[Seen]:
+        """The samples that arrived, each with the attitude after it."""
+        return [Seen(packet, self._attitude(packet)) for packet in packets]
+
+    def _attitude(self, packet: Packet) -> Attitude:
+        if self._stream is not None:
+            found: Attitude = self._stream.update(packet)
+            return found
+        truth = self._world.truth
+        table = np.full((1, COLUMNS), np.nan)
+        table[0, QUAT], table[0, RATE] = truth.quat, truth.rate
+        return Attitude(np.array([float(np.asarray(packet.time))]), table, np.zeros(1, np.uint32), "magnetic")
