@@ -76,13 +76,13 @@ def balance(
 
 
 def _checked(output: Path | None, push: float, every: float, duration: float, speed: float) -> None:
-    from poise.cli.targets import make_room
+    from poise.cli.targets import check_room
     from poise.plots import FORMATS
 
     if output is not None:
         if output.suffix.lower().removeprefix(".") not in FORMATS:
             usage(f"--output: expected .png, .svg or .pdf, found {str(output)!r}")
-        make_room(output)
+        check_room(output)
     for name, value, least in (
         ("push", push, 0.0),
         ("every", every, 1.0),
