@@ -84,7 +84,7 @@ def _mark(axes: list[Axes], run: BalanceRun) -> None:
     if run.fell:
         for ax in axes:
             ax.axvline(run.impact, color=INK, lw=1.2)
-        _name(axes[0], run.impact, "impact", "left")
+        _name(axes[0], run.impact, "impact", "left", 0.5)
 
 
 def _name(ax: Axes, time: float, text: str, side: str, height: float = 0.9) -> None:

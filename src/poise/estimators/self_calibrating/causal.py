@@ -217,7 +217,8 @@ class SelfCalibrating(NamedTuple):
             force, force_late = force + sample.acc_dt * earth, force_late - sample.acc_dt * moved
             force_time += sample.acc_dt
             beyond = earth - self.gravity * UP
-            excess += dot(beyond, beyond)
+            rows = sample.acc_dt / T if T > 0.0 else 1.0  # that it stands for: an accelerometer may be slower
+            excess += rows * dot(beyond, beyond)
         mags, mag_time, off, to_iron, to_delay = s.mags, s.mag_time, s.off, s.to_iron, s.to_delay
         if present(m):
             mags, mag_time = mags + 1.0, mag_time + sample.mag_dt

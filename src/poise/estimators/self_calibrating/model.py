@@ -46,7 +46,7 @@ class Sums(NamedTuple):
     force_time: float  # s of specific force
     gyr: Vec3  # Σ of the rate as measured
     rate_square: float  # Σ |ω|²
-    excess_square: float  # Σ |R f − g e_z|²
+    excess_square: float  # Σ |R f − g e_z|² over the rows that it stands for
     mags: float  # magnetometer samples
     mag_time: float  # s that they stand for
     off: Vec3  # Σ R₀ (m − b − u), R₀ the attitude at the magnetometer's instant; Σ R m before the field is known

@@ -28,7 +28,7 @@ _OF_MOTION = 0.12  # of the motion's root mean square may be left in the mean
 
 @compiled
 def contradicted(method: SelfCalibrating, P: Floats, s: Sums) -> bool:
-    """Takes the block into the means, and says whether the tilt cannot be right (eq. 15)."""
+    """Takes the block into the means, and says whether the tilt cannot be right (eq. 22)."""
     P[SUMS + 2, _UNSETTLED] = max(float(P[SUMS + 2, _UNSETTLED]) - s.time, 0.0)
     if s.force_time == 0.0:
         return False
@@ -46,7 +46,7 @@ def contradicted(method: SelfCalibrating, P: Floats, s: Sums) -> bool:
 
 @compiled
 def turned_away(method: SelfCalibrating, P: Floats, s: Sums, seen: Vec3, field: Vec3) -> bool:
-    """Whether the field stands there as it always did, but another way round: then it is the heading that has turned.
+    """Whether the field stands there as it always did, but another way round: then it is the heading that has turned (eq. 23).
 
     *seen* and *field* in lengths, Earth frame. What disturbs a field changes its dip or length, or moves with the body.
     """
@@ -72,7 +72,7 @@ def turned_away(method: SelfCalibrating, P: Floats, s: Sums, seen: Vec3, field: 
 
 @compiled
 def turns_alone(P: Floats, field: Vec3, off: Vec3, time: float, rest: bool) -> bool:
-    """Whether at rest the gyroscope alone turns, by *off* rad/s beside the bias, and the field in the body stands.
+    """Whether at rest the gyroscope alone turns, by *off* rad/s beside the bias, and the field in the body stands (eq. 24).
 
     *field* in lengths; ZERO where there is no magnetometer sample. The turn about the field itself shows nowhere.
     """
