@@ -6,7 +6,7 @@ long, though: over seconds the mean specific force stands upright, by as much as
 
 from __future__ import annotations
 
-from math import atan2, sqrt
+from math import atan2, radians, sqrt
 from typing import TYPE_CHECKING
 
 from poise.estimators.self_calibrating.model import BIAS, SUMS, TURN, VELOCITY, Floats, Sums, forget, put, vector
@@ -20,6 +20,7 @@ _MEAN = 10  # where the row of sums keeps the mean of the horizontal specific fo
 _SEEN, _TURNED = 13, 16  # and of a rest the field that it began with (3), and the turn since then (3), body frame
 _FIELD = 19  # and the mean of the field as it was seen (3), Earth frame, of its square, and of its misfit
 _UNSETTLED = 24  # and the seconds that the attitude is unsettled for, after the bias was doubted
+_SURE_TILT = radians(3.0)  # after which it is settled all the same
 _SAME, _STEADY = 0.1, 0.12  # lengths that its north and up may be off, and that it may stray from its mean
 _UNDISTURBED = 0.07  # lengths that dip and length may be off, for four times as long
 _WOULD_SHOW, _SHOWS = 0.05, 0.3  # lengths: the field would have moved by as much, and moved by that share of it
@@ -111,8 +112,8 @@ def doubt_bias(method: SelfCalibrating, P: Floats) -> None:
 
 @compiled
 def settled(P: Floats) -> bool:
-    """Whether the bias has not been doubted for a while."""
-    return float(P[SUMS + 2, _UNSETTLED]) <= 0.0
+    """Whether the bias has not been doubted for a while, or gravity has made the tilt sure again since."""
+    return float(P[SUMS + 2, _UNSETTLED]) <= 0.0 or P[TURN, TURN] + P[TURN + 1, TURN + 1] < 2.0 * _SURE_TILT**2
 
 
 @compiled
