@@ -188,7 +188,7 @@ class BalanceLoop:
         self._judge(self.monitor.check(self.world.time), arrived)
         state = self.world.truth.state
         self.rows.append([
-            self.world.time, state["lean"], self.estimate, state["speed"], self._wanted[0], *self._torques,
+            self.world.time, state["lean"], self.estimate, state["speed"], self._wanted[0], *state["torques"],
             float(self.monitor.state), *state["position"][:2].tolist(),
         ])  # fmt: skip
 
