@@ -130,9 +130,10 @@ def ask(viewer: ClientConnection, **message: Any) -> dict[str, Any]:
 
 
 def heard(connection: ClientConnection, kind: str | None = None, seconds: float = 20.0) -> dict[str, Any]:
-    """The next text message, of that kind."""
+    """The next text message, of that kind, which must come within *seconds* whatever else does."""
+    until = time.monotonic() + seconds
     while True:
-        message = connection.recv(timeout=seconds)
+        message = connection.recv(timeout=max(until - time.monotonic(), 0.0))
         if isinstance(message, str):
             found: dict[str, Any] = json.loads(message)
             if kind in (None, found["type"]):
@@ -142,8 +143,9 @@ def heard(connection: ClientConnection, kind: str | None = None, seconds: float 
 def seen(viewer: ClientConnection, n: int, seconds: float = 20.0) -> NDArray[np.void]:
     """The next *n* records."""
     found: list[NDArray[np.void]] = []
+    until = time.monotonic() + seconds
     while sum(map(len, found)) < n:
-        message = viewer.recv(timeout=seconds)
+        message = viewer.recv(timeout=max(until - time.monotonic(), 0.0))
         if isinstance(message, bytes):
             found.append(frames.records(message))
     return np.concatenate(found)

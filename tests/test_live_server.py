@@ -329,6 +329,20 @@ def test_a_page_needs_no_token_but_holds_nothing(guarded: Running) -> None:
     assert answer.status_code == 200
 
 
+def test_dear_ticks_do_not_keep_silence_from_being_noticed() -> None:
+    """A method's first tick compiles; after that, and with many devices, ticks come as far apart as they may."""
+    rows = np.zeros((3, 10))
+    rows[:, 0], rows[:, 6] = np.arange(3) / 100, 9.81
+    with serving() as live, live.device("arm") as device:
+        live.call(lambda: setattr(live.hub, "tick_cost", 1.0))
+        send(device, rows)
+        wait_for(lambda: live.hub.find("arm").health.samples == 3 and live.hub.find("arm").health.silent)
+        live.call(lambda: setattr(live.hub, "tick_cost", 1.0))
+        rows[:, 0] += 0.1
+        send(device, rows, first=3)
+        wait_for(lambda: live.hub.find("arm").health.silences == 2)
+
+
 def test_a_device_that_tips_over_is_said_and_answered(tmp_path: Path) -> None:
     lean = np.concatenate([np.zeros(200), np.linspace(0.0, 1.5, 100), np.full(100, 1.5)])  # rad, forward about x
     rate = np.gradient(lean, 0.01)

@@ -22,7 +22,8 @@ from poise.live.watching import Watch, as_facts, as_text
 
 _EVENTS = 1000
 MOST_DEVICES = 10_000
-_LATE_TICK = 0.02  # s; a tick that comes later than this says nothing about devices
+_QUICKEST, _SLOWEST = 0.004, 0.02  # s between ticks: as often as a quarter of the time allows
+_LATE_TICK = 0.02  # s beside the pause; a tick that comes later than this says nothing about devices
 
 
 class HubError(PoiseError):
@@ -150,10 +151,15 @@ class Hub:
         """Whether samples wait for a method to be loaded, or for the streams of a recording that goes on."""
         return any(not device.runs for device in self._waiting)
 
+    @property
+    def pause(self) -> float:
+        """s to the next tick: ticks with samples take a quarter of the time, at most."""
+        return min(max(4.0 * self.tick_cost, _QUICKEST), _SLOWEST)
+
     def tick(self, now: float | None = None) -> Batch | None:
         """Runs every sample that has arrived through its device's methods; *now* is the host's monotonic clock, s."""
         now = time.monotonic() if now is None else now
-        late, self._last_tick = now - self._last_tick > _LATE_TICK, now
+        late, self._last_tick = now - self._last_tick > self.pause + _LATE_TICK, now
         batch = self._advance(now) if self._waiting else None
         if not late:
             self._hush(now)

@@ -34,7 +34,6 @@ if TYPE_CHECKING:
 DASHBOARD = Path(__file__).parent / "dashboard"
 _HEALTH_EVERY = 1.0  # s
 _FLAGS_EVERY = 0.25  # s that a flag stays in `flags_since`, so that every viewer sees it
-_QUICKEST, _SLOWEST = 0.004, 0.02  # s between ticks: as often as a quarter of the time allows
 _BACKLOG = 8192
 _HEAD_START = (
     2.0  # s to load the methods before the first device is served: beside a busy loop it takes several times as long
@@ -156,7 +155,7 @@ class Server:
                 slices = [devices[k : k + _SLICE] for k in range(0, max(len(devices), 1), _SLICE)]
             if slices:
                 self._say(partial(self.health, slices.pop()))
-            await asyncio.sleep(min(max(4.0 * self.hub.tick_cost, _QUICKEST), _SLOWEST))
+            await asyncio.sleep(self.hub.pause)
 
     async def _begin(self) -> None:
         if self.hub.watch is not None:
