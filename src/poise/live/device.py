@@ -14,6 +14,7 @@ from poise.data.recording import check_unit_of_time
 from poise.estimators.engine import Stream
 from poise.live import frames
 from poise.live.clock import DeviceClock
+from poise.live.devices import Shape
 from poise.live.methods import Choice
 from poise.monitor import Monitor
 
@@ -81,8 +82,10 @@ class Health:
 class Device:
     """One source of samples, by its name."""
 
-    def __init__(self, name: str, number: int, source: str, waiting: dict[Device, None]) -> None:
-        self.name, self.number, self.source = name, number, source
+    def __init__(
+        self, name: str, number: int, source: str, waiting: dict[Device, None], shape: Shape = "board"
+    ) -> None:
+        self.name, self.number, self.source, self.shape = name, number, source, shape
         self.runs: list[Running] = []
         self.wanted: tuple[Running | Choice, ...] = ()
         """the methods that it is to run once they are compiled; empty where it does"""
@@ -218,6 +221,7 @@ class Device:
             "id": self.name,
             "number": self.number,
             "source": self.source,
+            "shape": self.shape,
             "connected": self.connected > 0,
             "methods": [
                 {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import AsyncIterator
-from typing import NamedTuple, Protocol
+from typing import Literal, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,8 @@ from poise.errors import PoiseError
 from poise.live.frames import UNNUMBERED
 
 Floats = NDArray[np.float64]
+Shape = Literal["board", "band", "phone", "handle", "robot", "joint"]
+"""what a page draws a device as"""
 
 
 class DeviceError(PoiseError):
@@ -39,6 +41,8 @@ class Source(Protocol):
 
     name: str
     """for people: what it is and where"""
+    shape: Shape
+    """what its devices look like"""
 
     def arrivals(self) -> AsyncIterator[Arrival]:
         """Samples as they come, without an end unless the source has one.

@@ -16,6 +16,7 @@ from poise.errors import PoiseError
 from poise.estimators.engine import Stream
 from poise.live.batch import Batch, Newest, Span
 from poise.live.device import Device, Running
+from poise.live.devices import Shape
 from poise.live.methods import Choice, startable, warmed
 from poise.live.waits import Waits
 from poise.live.watching import Watch, as_facts, as_text
@@ -60,7 +61,7 @@ class Hub:
         self.tick_cost = 0.0
         """s, the running mean of what a tick with samples takes"""
 
-    def device(self, name: str, source: str = "") -> Device:
+    def device(self, name: str, source: str = "", shape: Shape = "board") -> Device:
         """The device *name*, made at its first mention. Raises :class:`HubError` for a name that cannot be, or one too many."""
         found = self.devices.get(name)
         if found is None:
@@ -68,7 +69,7 @@ class Hub:
                 raise HubError(f"device {name[:80]!r}: expected 1 to 64 letters, digits, - _ . or :")
             if len(self.devices) >= MOST_DEVICES:
                 raise HubError(f"device {name!r}: there are {MOST_DEVICES} already")
-            found = self.devices[name] = Device(name, len(self.devices), source, self._waiting)
+            found = self.devices[name] = Device(name, len(self.devices), source, self._waiting, shape)
             self.set_methods(found, self.methods)
             self.event("device", found, f"device {name} from {source or 'somewhere'}")
         return found

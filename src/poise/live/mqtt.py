@@ -10,7 +10,7 @@ from typing import Any
 from urllib.parse import unquote, urlsplit
 
 from poise.live.described import Decoder, Description
-from poise.live.devices import Arrival, DeviceError
+from poise.live.devices import Arrival, DeviceError, Shape
 from poise.live.frames import FrameError
 from poise.live.udp import joined
 
@@ -25,6 +25,8 @@ class Mqtt:
     A device is named by the last level of its topic; a message holds what a datagram may. A broker that goes away is waited
     for. Raises :class:`DeviceError` for an address that is none.
     """
+
+    shape: Shape = "board"
 
     def __init__(self, address: str, description: Description | None = None) -> None:
         try:

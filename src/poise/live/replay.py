@@ -11,7 +11,7 @@ import numpy as np
 
 from poise.data.recording import Recording
 from poise.estimators.loop import ROW_COLUMNS
-from poise.live.devices import Arrival
+from poise.live.devices import Arrival, Shape
 
 _STEP = 0.01  # s between deliveries
 _MOST = 4096  # samples at a time, at any speed
@@ -20,6 +20,8 @@ _LONGEST_GAP = 2.0  # s that a gap in the stamps is waited for
 
 class Replay:
     """Plays *recording* as the device *device*; *speed* 1 is real time, ``inf`` as fast as it can be taken."""
+
+    shape: Shape = "board"
 
     def __init__(self, recording: Recording, device: str = "", speed: float = 1.0, loop: bool = False) -> None:
         self.device = device or re.sub(r"[^\w.:-]", "-", recording.name or "replay").lstrip(".")[:64] or "replay"

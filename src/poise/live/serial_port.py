@@ -10,7 +10,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from poise.live.described import Decoder, Description
-from poise.live.devices import Arrival, DeviceError
+from poise.live.devices import Arrival, DeviceError, Shape
 
 _RETRY = 0.25  # s
 _CHUNK = 65536
@@ -19,6 +19,8 @@ _PATIENCE = 0.02  # s that a read waits for more: chunks, not lines
 
 class SerialPort:
     """Reads *port* in chunks, at the baud rate of *description*; a port that disappears is waited for."""
+
+    shape: Shape = "board"
 
     def __init__(self, port: str, description: Description | None = None) -> None:
         self.port, self._description = port, description or Description()

@@ -193,7 +193,7 @@ class Server:
             async for arrival in source.arrivals():
                 device = self.hub.devices.get(arrival.device)
                 try:
-                    device = self.hub.device(arrival.device, source.name)
+                    device = self.hub.device(arrival.device, source.name, source.shape)
                     device.receive(arrival.rows, time.monotonic(), arrival.sequence)
                 except PoiseError as problem:
                     self._refused(device, source.name, problem)

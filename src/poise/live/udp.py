@@ -11,7 +11,7 @@ from collections.abc import AsyncIterator
 import numpy as np
 
 from poise.live.described import Decoder, Description
-from poise.live.devices import Arrival, DeviceError
+from poise.live.devices import Arrival, DeviceError, Shape
 from poise.live.frames import UNNUMBERED, FrameError
 
 _BUFFER = 8 << 20  # bytes the system keeps for us: the usual 200 KiB lost 77 % at 60 000 datagrams a second
@@ -27,6 +27,8 @@ class Udp:
 
     A datagram without a name is of the device at its address; where several ports of one address send, of address:port.
     """
+
+    shape: Shape = "board"
 
     def __init__(self, host: str, port: int, description: Description | None = None) -> None:
         self.host, self.port, self._description = host, port, description
