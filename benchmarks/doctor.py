@@ -81,7 +81,9 @@ def count(original: Recording, wrong: Recording) -> Counts:
     if found.repairs and all(f.fix and f.decided for f in found.found("sure")) and same(repaired, original):
         return Counts(1, 0, 0, 0)
     if not found.repairs.axes and (axes := [f for f in found.findings if f.name.endswith(("axes", "sign"))]):
-        known = axes[0].severity == "sure"  # a unit repaired: of the axes it says that they are wrong, or cannot be told
+        known = (
+            axes[0].severity == "sure"
+        )  # a unit repaired: of the axes it says that they are wrong, or cannot be told
         return Counts(0, int(known), int(not known), 0)
     negated = same(repaired.with_samples(acc=-repaired.acc, mag=-repaired.mag), original)
     return Counts(0, 0, 0, int(not negated), int(negated))
