@@ -51,7 +51,7 @@ class Verdict(NamedTuple):
     against: float
     """standard deviations from the likeliest to the axes as they are"""
     apart: float
-    """standard deviations by which acc alone, and mag alone, put this before their own next, the smaller; below 0: they do not"""
+    """standard deviations by which acc alone and mag alone put it before their own next, the smaller; below 0: they do not"""
     better: float
     """how many times smaller the loss of the likeliest is than that of the axes as they are, where they differ most"""
 
