@@ -148,6 +148,7 @@ def application(server: Server) -> App:
         ],
         exception_handlers={PoiseError: refused, ValueError: refused},
     )
+    server.offers = sorted({"/phone", "/recordings"} & {getattr(route, "path", "") for route in app.routes})
     return app  # type: ignore[no-any-return]
 
 

@@ -15,7 +15,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from poise.data.flags import SENTENCES, Flag
+from poise.data.flags import INVALID, SENTENCES, Flag
 from poise.errors import PoiseError
 from poise.live import frames, http
 from poise.live.access import Access, Gate
@@ -77,6 +77,8 @@ class Server:
         self.device_sockets: dict[DeviceSocket, None] = {}
         self.listeners: set[asyncio.Queue[dict[str, Any]]] = set()
         self.access = Access(self.options.host, self.options.tokens, self.options.hosts)
+        self.offers: list[str] = []
+        """which of the pages that not every server has this one has"""
         self.app = Gate(http.application(self), self.access, http.needed)
         self.stopping = asyncio.Event()
         self.began = time.monotonic()
@@ -271,6 +273,8 @@ class Server:
             "may_write": may_write,
             "methods": described(),
             "flags": {f.bit_length() - 1: [f.name, SENTENCES[f]] for f in Flag},
+            "invalid_flags": INVALID,
+            "offers": self.offers,
             "recording": self.recorder.condition() if self.recorder else None,
             "films": len(self.films),
         }
