@@ -1,0 +1,224 @@
+"""Which way a browser's motion sensors point, found by comparing them with the browser's own orientation.
+
+Browsers agree on what an orientation is, and not on its rates: some give the acceleration with the other sign, some the
+rotation rate in another order (https://github.com/w3c/deviceorientation/issues/44) or in rad/s. Nothing here knows a
+browser: all signed orders are compared, and one is believed when motion has refuted every other.
+"""
+
+from __future__ import annotations
+
+import re
+from itertools import permutations, product
+from math import radians
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+TIME, RATES, ACC, ANGLES = 0, slice(1, 4), slice(4, 7), slice(7, 10)
+"""columns of raw motion: time in s; rotationRate alpha, beta, gamma; accelerationIncludingGravity x, y, z; orientation
+alpha, beta, gamma in degrees"""
+_GRAVITY = 9.81
+_WINDOW = 0.2  # s
+_LONGEST = 0.5  # s, else samples are missing in it
+_TURNED = radians(2.0)  # that a window must turn to say something about rates
+_LEANED = radians(5.0)  # that up must have moved since a window that was counted, or rest would be counted for ever
+_MOST_TURN = radians(60.0)  # more is a jump of the orientation (a compass that was corrected)
+_SHAKEN = 3.0  # m/s² from gravity's length: the acceleration says too little about up
+_RATE_EVIDENCE = 150.0 * radians(1.0) ** 2  # rad²; as 6° about an axis in one window, or 10° in three
+_ACC_EVIDENCE = 0.5  # as up 15° off an axis' plane in two windows
+_MISFIT = 0.3  # of the squared motion that the best may leave unexplained
+_ORDERS = [
+    np.diag(signs)[:, list(order)].astype(float)
+    for order in permutations(range(3))
+    for signs in product((1, -1), repeat=3)
+]
+_UNITS = {"deg": radians(1.0), "rad": 1.0}
+_TEXT = re.compile(r"([+-][xyz]){3},([+-][abg]){3},(deg|rad)")
+_HINTS = {
+    "rates": ("tip its top towards you and away", "tip it to the left and to the right", "turn it like a wheel"),
+    "acc": ("stand it on its long side", "hold it upright", "lay it flat"),
+}
+
+
+class Axes(NamedTuple):
+    """How a browser's numbers become a body frame: x to the right of the screen, y up it, z out of it."""
+
+    rates: Floats
+    """(3, 3) signed order: gyr = unit · rates @ (alpha, beta, gamma)"""
+    acc: Floats
+    """(3, 3) signed order: acc = acc @ (x, y, z)"""
+    unit: str
+    """of the rates: deg or rad"""
+
+    def rows(self, raw: Floats) -> Floats:
+        """(n, 12) samples, as the estimators' loop reads them, of (n, 10) raw motion."""
+        rows = np.zeros((len(raw), 12))
+        rows[:, 0] = raw[:, TIME]
+        rows[:, 1:4] = _UNITS[self.unit] * _ordered(raw[:, RATES], self.rates)
+        rows[:, 4:7] = _ordered(raw[:, ACC], self.acc)
+        rows[:, 7:10] = np.nan
+        return rows
+
+    def __str__(self) -> str:
+        """Like ``-x-y-z,+b+g+a,deg``: what stands for the body's x, y and z, of the acceleration and of the rates."""
+        return f"{_as_text(self.acc, 'xyz')},{_as_text(self.rates, 'abg')},{self.unit}"
+
+    @classmethod
+    def parse(cls, text: str) -> Axes:
+        """The axes of such a text. Raises :class:`ValueError`."""
+        acc, rates = (_as_order(part, of) for part, of in zip(text.split(","), ("xyz", "abg"), strict=False))
+        if not _TEXT.fullmatch(text) or acc is None or rates is None:
+            raise ValueError(f"axes {text[:40]!r}: expected a text like -x-y-z,+b+g+a,deg")
+        return cls(rates, acc, text.rpartition(",")[2])
+
+
+def up(angles: Floats) -> Floats:
+    """(n, 3) up in the body frame, of (n, 3) orientations alpha, beta, gamma in degrees."""
+    return _rotations(angles)[:, 2, :]
+
+
+class Pinning:
+    """Takes raw motion until it can be only one thing.
+
+    Signed orders and units are told apart by the squared differences, over windows of 0.2 s, between what the rates say was
+    turned and what the orientation says, and between the acceleration and the orientation's up.
+    """
+
+    def __init__(self) -> None:
+        self.axes: Axes | None = None
+        self._rates, self._acc = _Evidence(), _Evidence()
+        self._window: list[Floats] = []
+        self._counted: Floats | None = None  # up in the last window that was counted
+        self._oriented = self._rated = False
+        self._length = _GRAVITY
+
+    def add(self, raw: Floats) -> Axes | None:
+        """Takes (n, 10) raw motion; the axes, once they are known."""
+        for row in raw:
+            if self.axes is None:
+                self._add(row)
+        return self.axes
+
+    @property
+    def reason(self) -> str:
+        """Why nothing is known yet, for the person who holds the phone."""
+        if not self._rated:
+            return "this browser gives no rotation rate: without a gyroscope there is nothing to go on"
+        if not self._oriented:
+            return "this browser gives no orientation to check the signs of its acceleration by"
+        if abs(self._length - _GRAVITY) > _SHAKEN:
+            return (
+                f"hold it still for a moment: its acceleration has a length of {self._length:.1f}, gravity is 9.8 m/s²"
+            )
+        for name, evidence, enough in (
+            ("rates", self._rates, _RATE_EVIDENCE),
+            ("acc", self._acc, _ACC_EVIDENCE),
+        ):
+            missing = np.flatnonzero(4.0 * evidence.energy < enough)
+            if len(missing):
+                return _HINTS[name][missing[0]]
+        return "turn it to all sides: its rates, its acceleration and its orientation do not fit together yet"
+
+    def _add(self, row: Floats) -> None:
+        self._rated |= bool(np.isfinite(row[RATES]).all())
+        self._oriented |= bool(np.isfinite(row[ANGLES]).all())
+        if not np.isfinite(row).all():
+            self._window.clear()
+            return
+        self._window.append(row)
+        lasted = row[TIME] - self._window[0][TIME]
+        if not 0.0 <= lasted <= _LONGEST:
+            self._window = [row]
+        elif lasted >= _WINDOW:
+            self._look(np.array(self._window))
+            self._window = [row]
+            self._decide()
+
+    def _look(self, window: Floats) -> None:
+        rotations = _rotations(window[:, ANGLES])
+        steps = np.diff(window[:, TIME])[:, None]
+        turned = _small_turn(rotations[0].T @ rotations[-1])
+        if _TURNED <= np.linalg.norm(turned) <= _MOST_TURN:
+            rates = window[:, RATES]
+            self._rates.add(turned, np.sum(0.5 * steps * (rates[1:] + rates[:-1]), axis=0))
+        acc, upward = window[:, ACC].mean(axis=0), rotations[:, 2, :].mean(axis=0)
+        self._length = float(np.linalg.norm(acc))
+        leaned = self._counted is None or np.linalg.norm(upward - self._counted) > _LEANED
+        if leaned and abs(self._length - _GRAVITY) <= _SHAKEN:
+            self._counted = upward
+            self._acc.add(upward, acc / _GRAVITY)
+
+    def _decide(self) -> None:
+        rates = self._rates.best(tuple(_UNITS.values()), _RATE_EVIDENCE)
+        acc = self._acc.best((1.0,), _ACC_EVIDENCE)
+        if rates is not None and acc is not None:
+            self.axes = Axes(_ORDERS[rates[0]], _ORDERS[acc[0]], list(_UNITS)[rates[1]])
+
+
+class _Evidence:
+    """Sums over windows, enough to compare what was expected with every order of what was said."""
+
+    def __init__(self) -> None:
+        self.energy = np.zeros(3)
+        """squares of what was expected, by axis"""
+        self._said = 0.0
+        self._cross = np.zeros((3, 3))
+
+    def add(self, expected: Floats, said: Floats) -> None:
+        self.energy += expected**2
+        self._said += float(said @ said)
+        self._cross += np.outer(expected, said)
+
+    def best(self, factors: tuple[float, ...], enough: float) -> tuple[int, int] | None:
+        """The numbers of the order and of the factor that alone explain what was expected."""
+        alike = np.array([np.sum(order * self._cross) for order in _ORDERS])[:, None]
+        k = np.array(factors)
+        total = float(self.energy.sum())
+        left = total + k**2 * self._said - 2.0 * k * alike
+        first, second = np.partition(left.ravel(), 1)[:2]
+        if second - first < max(enough, 0.5 * first) or first > _MISFIT * total:
+            return None
+        order, factor = np.unravel_index(int(left.argmin()), left.shape)
+        return int(order), int(factor)
+
+
+def _rotations(angles: Floats) -> Floats:
+    """(n, 3, 3) body to Earth: about z by alpha, then the new x by beta, then the new y by gamma (W3C)."""
+    ca, cb, cg = np.cos(np.radians(angles)).T
+    sa, sb, sg = np.sin(np.radians(angles)).T
+    rows = [
+        [ca * cg - sa * sb * sg, -sa * cb, ca * sg + sa * sb * cg],
+        [sa * cg + ca * sb * sg, ca * cb, sa * sg - ca * sb * cg],
+        [-cb * sg, sb, cb * cg],
+    ]
+    return np.moveaxis(np.array(rows), -1, 0)
+
+
+def _small_turn(rotation: Floats) -> Floats:
+    """(3,) rotation vector, for turns below 90°; of more, a vector that is long."""
+    sine = 0.5 * np.array(
+        [rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1]]
+    )
+    length = float(np.linalg.norm(sine))
+    angle = np.arctan2(length, 0.5 * (np.trace(rotation) - 1.0))
+    return sine * (angle / length) if length > 1e-12 else sine
+
+
+def _ordered(values: Floats, order: Floats) -> Floats:
+    """(n, 3) *values* in another order, exactly: a product would turn one NaN into three."""
+    return np.asarray(values[:, np.abs(order).argmax(axis=1)] * order.sum(axis=1))
+
+
+def _as_text(order: Floats, of: str) -> str:
+    return "".join("+-"[int(row.sum() < 0)] + of[int(np.abs(row).argmax())] for row in order)
+
+
+def _as_order(text: str, of: str) -> Floats | None:
+    order = np.zeros((3, 3))
+    for row, (sign, name) in zip(order, re.findall(r"([+-])(\w)", text), strict=False):
+        if name in of:
+            row[of.index(name)] = -1.0 if sign == "-" else 1.0
+    return order if (np.abs(order).sum(axis=0) == 1).all() and (np.abs(order).sum(axis=1) == 1).all() else None
