@@ -15,12 +15,12 @@ _COMMAND = "poise live phone --host 0.0.0.0 --https"
 
 def addresses(options: Options) -> Iterator[str]:
     """Where the dashboard is; with the token only if it was made up just now, or nobody would know it."""
+    from poise.cli.page import address
     from poise.live.address import base, listens_everywhere, own_addresses
 
     token = f"#token={options.made_token}" if options.made_token else ""
-    everywhere = listens_everywhere(options.host)
-    yield f"poise live on {base(options, '127.0.0.1' if everywhere else None)}{token}  (Ctrl-C ends it)"
-    if everywhere and (own := own_addresses()):
+    yield f"poise live on {address(options)}{token}  (Ctrl-C ends it)"
+    if listens_everywhere(options.host) and (own := own_addresses()):
         yield f"from other machines: {base(options, own[0])}{token}"
 
 

@@ -36,9 +36,8 @@ def listens_everywhere(host: str) -> bool:
         return False
 
 
-def base(options: Options, host: str | None = None) -> str:
-    """The address of the dashboard, by *host* if that is another than the one listened on."""
-    host = host or options.host
+def base(options: Options, host: str) -> str:
+    """The address of the server's pages by the name or address *host*."""
     name = f"[{host}]" if ":" in host else host
     return f"{'https' if options.certificate else 'http'}://{name}:{options.port}/"
 

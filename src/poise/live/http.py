@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 from collections.abc import AsyncIterator, MutableMapping
 from math import degrees, isfinite
@@ -47,7 +48,7 @@ def needed(method: str, path: str) -> Scope | None:
         return None
     if path == "/phone/qr.svg":
         return "write"  # it holds a token that devices push with
-    if path.startswith(("/devices", "/methods", "/events", "/metrics", "/ws/view", "/recordings")):
+    if path.startswith(("/devices", "/methods", "/events", "/metrics", "/ws/view", "/recordings", "/films")):
         return "read" if method in ("GET", "HEAD") else "write"
     return None  # the page itself holds no data
 
@@ -88,6 +89,23 @@ def application(server: Server) -> App:
             raise HubError("expected a JSON object")
         server.change(kind, asked | {"device": request.path_params["name"]})
         return JSONResponse(hub.find(request.path_params["name"]).described())
+
+    async def films(request: Request) -> Response:
+        hello = {key: server.hello()[key] for key in ("server", "flags")}
+        return JSONResponse(hello | {"films": [film.described(k) for k, film in enumerate(server.films)]})
+
+    async def film_frame(request: Request) -> Response:
+        number, asked = request.path_params["number"], request.query_params
+        if not 0 <= number < len(server.films):
+            return JSONResponse({"error": f"no film {number}; there are {len(server.films)}"}, 404)
+        film = server.films[number]
+        usual = {"start": film.start, "end": film.end, "most": 4000.0}
+        try:
+            start, end, most = (float(asked.get(name, value)) for name, value in usual.items())
+        except ValueError as problem:
+            raise HubError(f"start, end and most are numbers: {problem}") from None
+        frame = await asyncio.to_thread(film.frame, number, start, end, most)
+        return Response(frame, media_type="application/octet-stream", headers={"cache-control": "no-store"})
 
     async def events(request: Request) -> Response:
         after = request.headers.get("last-event-id") or request.query_params.get("after") or "0"
@@ -138,6 +156,8 @@ def application(server: Server) -> App:
             Route("/devices/{name}/methods", change, methods=["PUT"]),
             Route("/devices/{name}/heading", change, methods=["POST"]),
             Route("/methods", methods),
+            Route("/films", films),
+            Route("/films/{number:int}/frame", film_frame),
             Route("/events", events),
             Route("/healthz", healthz),
             Route("/metrics", prometheus),

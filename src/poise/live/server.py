@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from poise.live.batch import Batch
     from poise.live.device import Device
     from poise.live.devices import Source
+    from poise.live.film import Film
     from poise.live.recorder import Recorder
 
 DASHBOARD = Path(__file__).parent / "dashboard"
@@ -69,9 +70,16 @@ class Server:
     """A hub, its sources, its recorder and whoever is connected, in one event loop."""
 
     def __init__(
-        self, hub: Hub, sources: Sequence[Source] = (), options: Options | None = None, recorder: Recorder | None = None
+        self,
+        hub: Hub,
+        sources: Sequence[Source] = (),
+        options: Options | None = None,
+        recorder: Recorder | None = None,
+        films: Sequence[Film] = (),
     ) -> None:
         self.hub, self.sources, self.options, self.recorder = hub, sources, options or Options(), recorder
+        self.films = tuple(films)
+        """recordings for pages to play"""
         self.viewers: dict[Viewer, None] = {}
         self.device_sockets: dict[DeviceSocket, None] = {}
         self.listeners: set[asyncio.Queue[dict[str, Any]]] = set()
@@ -271,6 +279,7 @@ class Server:
             "methods": described(),
             "flags": {f.bit_length() - 1: [f.name, SENTENCES[f]] for f in Flag},
             "recording": self.recorder.condition() if self.recorder else None,
+            "films": len(self.films),
         }
 
     def device_list(self) -> dict[str, Any]:
