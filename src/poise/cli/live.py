@@ -193,10 +193,10 @@ def _options(host: str, port: int, tokens: tuple[str, ...], hosts: tuple[str, ..
     options = Options(host, port, parsed_tokens(tokens), hosts)
     if phone and not loopback(host):
         if not options.tokens:
-            options.made_token = secrets.token_urlsafe(18)
+            options.made_token = secrets.token_hex(12)
             options.tokens[options.made_token] = frozenset(SCOPES)
         own = [token for token, scopes in options.tokens.items() if scopes == {"device"}]
-        options.phone_token = own[0] if own else secrets.token_urlsafe(18)
+        options.phone_token = own[0] if own else secrets.token_hex(12)
         options.tokens[options.phone_token] = frozenset({"device"})
     return options
 
