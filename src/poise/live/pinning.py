@@ -26,10 +26,10 @@ _LONGEST = 0.5  # s, else samples are missing in it
 _TURNED = radians(2.0)  # that a window must turn to say something about rates
 _LEANED = radians(5.0)  # that up must have moved since a window that was counted, or rest would be counted for ever
 _MOST_TURN = radians(60.0)  # more is a jump of the orientation (a compass that was corrected)
-_SHAKEN = 3.0  # m/s² from gravity's length: the acceleration says too little about up
+_SHAKEN = 3.0  # m/s² from gravity's length in any sample: the acceleration says too little about up
 _RATE_EVIDENCE = 150.0 * radians(1.0) ** 2  # rad²; as 6° about an axis in one window, or 10° in three
-_ACC_EVIDENCE = 0.5  # as up 15° off an axis' plane in two windows
-_MISFIT = 0.3  # of the squared motion that the best may leave unexplained
+_ACC_EVIDENCE = 1.0  # as up 20° off an axis' plane in two windows
+_MISFIT = 0.15  # of the squared motion that the best may leave unexplained
 _ORDERS = [
     np.diag(signs)[:, list(order)].astype(float)
     for order in permutations(range(3))
@@ -69,10 +69,13 @@ class Axes(NamedTuple):
     @classmethod
     def parse(cls, text: str) -> Axes:
         """The axes of such a text. Raises :class:`ValueError`."""
-        acc, rates = (_as_order(part, of) for part, of in zip(text.split(","), ("xyz", "abg"), strict=False))
-        if not _TEXT.fullmatch(text) or acc is None or rates is None:
-            raise ValueError(f"axes {text[:40]!r}: expected a text like -x-y-z,+b+g+a,deg")
-        return cls(rates, acc, text.rpartition(",")[2])
+        if _TEXT.fullmatch(text):
+            acc, rates, unit = text.split(",")
+            try:
+                return cls(_as_order(rates, "abg"), _as_order(acc, "xyz"), unit)
+            except ValueError:
+                pass
+        raise ValueError(f"axes {text[:40]!r}: expected a text like -x-y-z,+b+g+a,deg")
 
 
 def up(angles: Floats) -> Floats:
@@ -120,7 +123,7 @@ class Pinning:
             missing = np.flatnonzero(4.0 * evidence.energy < enough)
             if len(missing):
                 return _HINTS[name][missing[0]]
-        return "turn it to all sides: its rates, its acceleration and its orientation do not fit together yet"
+        return "turn it slowly to all sides: its rates, its acceleration and its orientation do not fit together yet"
 
     def _add(self, row: Floats) -> None:
         self._rated |= bool(np.isfinite(row[RATES]).all())
@@ -141,15 +144,16 @@ class Pinning:
         rotations = _rotations(window[:, ANGLES])
         steps = np.diff(window[:, TIME])[:, None]
         turned = _small_turn(rotations[0].T @ rotations[-1])
-        if _TURNED <= np.linalg.norm(turned) <= _MOST_TURN:
+        turn = float(np.linalg.norm(turned))
+        if _TURNED <= turn <= _MOST_TURN:
             rates = window[:, RATES]
             self._rates.add(turned, np.sum(0.5 * steps * (rates[1:] + rates[:-1]), axis=0))
-        acc, upward = window[:, ACC].mean(axis=0), rotations[:, 2, :].mean(axis=0)
-        self._length = float(np.linalg.norm(acc))
+        lengths, upward = np.linalg.norm(window[:, ACC], axis=1), rotations[:, 2, :].mean(axis=0)
+        self._length = float(lengths.mean())
         leaned = self._counted is None or np.linalg.norm(upward - self._counted) > _LEANED
-        if leaned and abs(self._length - _GRAVITY) <= _SHAKEN:
+        if leaned and turn <= _MOST_TURN and np.abs(lengths - _GRAVITY).max() <= _SHAKEN:
             self._counted = upward
-            self._acc.add(upward, acc / _GRAVITY)
+            self._acc.add(upward, window[:, ACC].mean(axis=0) / _GRAVITY)
 
     def _decide(self) -> None:
         rates = self._rates.best(tuple(_UNITS.values()), _RATE_EVIDENCE)
@@ -179,7 +183,7 @@ class _Evidence:
         total = float(self.energy.sum())
         left = total + k**2 * self._said - 2.0 * k * alike
         first, second = np.partition(left.ravel(), 1)[:2]
-        if second - first < max(enough, 0.5 * first) or first > _MISFIT * total:
+        if second - first < max(enough, first) or first > _MISFIT * total:
             return None
         order, factor = np.unravel_index(int(left.argmin()), left.shape)
         return int(order), int(factor)
@@ -216,9 +220,10 @@ def _as_text(order: Floats, of: str) -> str:
     return "".join("+-"[int(row.sum() < 0)] + of[int(np.abs(row).argmax())] for row in order)
 
 
-def _as_order(text: str, of: str) -> Floats | None:
+def _as_order(text: str, of: str) -> Floats:
     order = np.zeros((3, 3))
-    for row, (sign, name) in zip(order, re.findall(r"([+-])(\w)", text), strict=False):
-        if name in of:
-            row[of.index(name)] = -1.0 if sign == "-" else 1.0
-    return order if (np.abs(order).sum(axis=0) == 1).all() and (np.abs(order).sum(axis=1) == 1).all() else None
+    for row, (sign, name) in zip(order, re.findall(r"([+-])(\w)", text), strict=True):
+        row[of.index(name)] = -1.0 if sign == "-" else 1.0
+    if not order.any(axis=0).all():
+        raise ValueError(f"{text}: an axis twice")
+    return order
