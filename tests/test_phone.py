@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import ssl
 from collections.abc import Iterator
@@ -149,8 +150,17 @@ def test_a_phones_attitude_is_that_of_its_recording(
             found = seen(viewer, len(recording) - 5)
         until(page, "document.querySelector('#valid').textContent === 'yes'")
         shown = float(page.text_content("#tilt").rstrip("°"))
+        drawn = re.search(r"matrix3d\((.*)\)", page.evaluate("document.querySelector('#slab').style.transform"))
+        heading = float(page.text_content("#heading").rstrip("°"))
         assert page.problems == []
         assert "#token" not in page.url
+    assert drawn is not None
+    turned = np.array([float(v) for v in drawn[1].split(",")]).reshape(4, 4)  # CSS: x right, y down, z to the eye
+    up_the_screen, out_of_it = -turned[1], turned[2]
+    assert np.degrees(np.arccos(-out_of_it[1])) == pytest.approx(shown, abs=0.2)
+    assert abs(np.degrees(np.arctan2(up_the_screen[0], -up_the_screen[2])) - heading + 180) % 360 == pytest.approx(
+        180, abs=1
+    )
     device = running.hub.devices["pocket"]
     assert device.shape == "phone"
     assert device.health.lost == device.health.repeated == device.health.rejected == 0
@@ -220,7 +230,7 @@ def test_over_plain_http_the_page_says_that_there_are_no_sensors(browser: Any) -
         page = context.new_page()
         page.goto(f"http://phone.test:{port}/phone#token={DEVICE}")
         assert page.text_content("#problem-title") == "No sensors over plain HTTP"
-        assert "--https" in page.text_content("#problem-text")
+        assert "--https" in page.text_content("#problem-code")
         assert page.get_attribute("#problem-link", "href") == f"https://phone.test:{port}/phone#token={DEVICE}"
         assert not page.is_visible("#setup")
         context.close()

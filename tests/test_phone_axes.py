@@ -55,7 +55,7 @@ def as_browser(
 def pinned(raw: NDArray[np.float64]) -> Axes | None:
     pinning = Pinning()
     for at in range(0, len(raw), 3):
-        if pinning.add(raw[at : at + 3]) is not None:
+        if pinning.add(raw[at : at + 3], raw[at, 0]) is not None:
             break
     return pinning.axes
 
@@ -106,16 +106,16 @@ def test_the_hints_say_what_is_missing() -> None:
         broken = raw.copy()
         broken[:, list(columns)] = np.nan
         pinning = Pinning()
-        assert pinning.add(broken) is None
+        assert pinning.add(broken, 0.0) is None
         assert text in pinning.reason
     in_g = raw.copy()
     in_g[:, 4:7] /= 9.81
     pinning = Pinning()
-    assert pinning.add(in_g) is None
+    assert pinning.add(in_g, 0.0) is None
     assert "length of 1.0" in pinning.reason
     pinning = Pinning()
-    assert pinning.add(as_browser(motion(0, (2, 0, 0)), ORDERS[0], ORDERS[0], "deg")) is None
-    assert pinning.reason == "tip it to the left and to the right"
+    assert pinning.add(as_browser(motion(0, (2, 0, 0)), ORDERS[0], ORDERS[0], "deg"), 0.0) is None
+    assert pinning.reason == "tip the phone to the left and right"
 
 
 def test_axes_are_told_and_read_as_text() -> None:
@@ -179,8 +179,16 @@ def test_of_samples_that_wait_the_last_half_minute_is_kept() -> None:
     waiting = Motion(device, None, lambda kind, text: None)
     raw = np.concatenate([still, turned])
     for at in range(0, len(raw), 6):
-        waiting.take(framed(raw[at : at + 6], at), 0.0)
+        waiting.take(framed(raw[at : at + 6], at), raw[at, 0])
     rows = device.take().rows
     assert rows[-1, 0] == raw[-1, 0]
     assert 25.0 < raw[3600, 0] - rows[0, 0] <= 30.0
     assert device.health.lost == 0  # an attitude needs no earlier beginning
+
+
+def test_stamps_that_stand_still_do_not_fill_the_memory() -> None:
+    raw = np.zeros((4096, 10))
+    waiting = Motion(Hub((Choice.of("adaptive-gain"),)).device("stuck"), None, lambda kind, text: None)
+    for number in range(12):
+        waiting.take(framed(raw, 4096 * number), 0.0)
+    assert sum(len(part) for _, part in waiting._held) <= 20_000

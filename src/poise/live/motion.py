@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from poise.live.device import Device
 
 _MOST_HELD = 30.0  # s of samples that wait until the axes are known
+_MOST_SAMPLES_HELD = 20_000  # whatever their stamps say
 _REMEMBERED = 2000  # orientations, for the attitude of the same sample
 _APART, _TOGETHER = 30.0, 20.0  # deg of tilt between the browser's orientation and ours
 _APART_FOR = 3.0  # s until that is told
@@ -66,14 +67,19 @@ class Motion:
         return max(0, len(raw) - known)
 
     def _hold(self, raw: Floats, now: float) -> None:
-        self.axes = self._pinning.add(raw)
+        self.axes = self._pinning.add(raw, now)
         if self.axes is not None:
             held, self._held = self._held, []
             self._tell("axes", f"{self._device.name}: axes known from its motion: {self.axes}")
             for first, part in held:
                 self._device.receive(self.axes.rows(part), now, first)
-        while self._held and self._held[-1][1][-1, TIME] - self._held[0][1][-1, TIME] > _MOST_HELD:
+        while self._held and self._too_many():
             del self._held[0]
+
+    def _too_many(self) -> bool:
+        oldest, newest = self._held[0], self._held[-1]
+        lasted = newest[1][-1, TIME] - oldest[1][-1, TIME]
+        return bool(lasted > _MOST_HELD) or newest[0] + len(newest[1]) - oldest[0] > _MOST_SAMPLES_HELD
 
     def _remember(self, raw: Floats, first: int) -> None:
         self._ups.update(zip(range(first, first + len(raw)), up(raw[:, ANGLES]), strict=True))

@@ -23,6 +23,10 @@ alpha, beta, gamma in degrees"""
 _GRAVITY = 9.81
 _WINDOW = 0.2  # s
 _LONGEST = 0.5  # s, else samples are missing in it
+_MOST_WINDOWS, _BURST = (
+    50.0,
+    250.0,
+)  # a second, and at once, that are looked at: a device with mad stamps must not cost more
 _TURNED = radians(2.0)  # that a window must turn to say something about rates
 _LEANED = radians(5.0)  # that up must have moved since a window that was counted, or rest would be counted for ever
 _MOST_TURN = radians(60.0)  # more is a jump of the orientation (a compass that was corrected)
@@ -30,16 +34,22 @@ _SHAKEN = 3.0  # m/s² from gravity's length in any sample: the acceleration say
 _RATE_EVIDENCE = 150.0 * radians(1.0) ** 2  # rad²; as 6° about an axis in one window, or 10° in three
 _ACC_EVIDENCE = 1.0  # as up 20° off an axis' plane in two windows
 _MISFIT = 0.15  # of the squared motion that the best may leave unexplained
-_ORDERS = [
-    np.diag(signs)[:, list(order)].astype(float)
-    for order in permutations(range(3))
-    for signs in product((1, -1), repeat=3)
-]
+_ORDERS = np.array(
+    [
+        np.diag(signs)[:, list(order)].astype(float)
+        for order in permutations(range(3))
+        for signs in product((1, -1), repeat=3)
+    ]
+)
 _UNITS = {"deg": radians(1.0), "rad": 1.0}
 _TEXT = re.compile(r"([+-][xyz]){3},([+-][abg]){3},(deg|rad)")
 _HINTS = {
-    "rates": ("tip its top towards you and away", "tip it to the left and to the right", "turn it like a wheel"),
-    "acc": ("stand it on its long side", "hold it upright", "lay it flat"),
+    "rates": (
+        "tip the phone's top towards you and away",
+        "tip the phone to the left and right",
+        "turn the phone like a wheel",
+    ),
+    "acc": ("stand the phone on its long side", "hold the phone upright", "lay the phone flat"),
 }
 
 
@@ -97,12 +107,22 @@ class Pinning:
         self._counted: Floats | None = None  # up in the last window that was counted
         self._oriented = self._rated = False
         self._length = _GRAVITY
+        self._budget, self._now = _BURST, 0.0
 
-    def add(self, raw: Floats) -> Axes | None:
-        """Takes (n, 10) raw motion; the axes, once they are known."""
-        for row in raw:
-            if self.axes is None:
+    def add(self, raw: Floats, now: float) -> Axes | None:
+        """Takes (n, 10) raw motion at *now* of the host's clock, s; the axes, once they are known."""
+        self._budget = min(_BURST, self._budget + _MOST_WINDOWS * (now - self._now))
+        self._now = now
+        self._rated |= bool(np.isfinite(raw[:, RATES]).all(axis=1).any())
+        self._oriented |= bool(np.isfinite(raw[:, ANGLES]).all(axis=1).any())
+        known = np.asarray(np.isfinite(raw).all(axis=1))
+        for row, whole in zip(raw, known, strict=True):
+            if self.axes is not None:
+                break
+            if whole:
                 self._add(row)
+            else:
+                self._window.clear()
         return self.axes
 
     @property
@@ -113,9 +133,8 @@ class Pinning:
         if not self._oriented:
             return "this browser gives no orientation to check the signs of its acceleration by"
         if abs(self._length - _GRAVITY) > _SHAKEN:
-            return (
-                f"hold it still for a moment: its acceleration has a length of {self._length:.1f}, gravity is 9.8 m/s²"
-            )
+            length = f"its acceleration has a length of {self._length:.1f}, gravity is 9.8 m/s²"
+            return f"hold the phone still for a moment: {length}"
         for name, evidence, enough in (
             ("rates", self._rates, _RATE_EVIDENCE),
             ("acc", self._acc, _ACC_EVIDENCE),
@@ -123,22 +142,19 @@ class Pinning:
             missing = np.flatnonzero(4.0 * evidence.energy < enough)
             if len(missing):
                 return _HINTS[name][missing[0]]
-        return "turn it slowly to all sides: its rates, its acceleration and its orientation do not fit together yet"
+        return "turn the phone slowly to all sides: its rates, its acceleration and its orientation do not fit together yet"
 
     def _add(self, row: Floats) -> None:
-        self._rated |= bool(np.isfinite(row[RATES]).all())
-        self._oriented |= bool(np.isfinite(row[ANGLES]).all())
-        if not np.isfinite(row).all():
-            self._window.clear()
-            return
         self._window.append(row)
         lasted = row[TIME] - self._window[0][TIME]
         if not 0.0 <= lasted <= _LONGEST:
             self._window = [row]
         elif lasted >= _WINDOW:
-            self._look(np.array(self._window))
+            if self._budget >= 1.0:
+                self._budget -= 1.0
+                self._look(np.array(self._window))
+                self._decide()
             self._window = [row]
-            self._decide()
 
     def _look(self, window: Floats) -> None:
         rotations = _rotations(window[:, ANGLES])
@@ -178,7 +194,7 @@ class _Evidence:
 
     def best(self, factors: tuple[float, ...], enough: float) -> tuple[int, int] | None:
         """The numbers of the order and of the factor that alone explain what was expected."""
-        alike = np.array([np.sum(order * self._cross) for order in _ORDERS])[:, None]
+        alike = np.einsum("kij,ij->k", _ORDERS, self._cross)[:, None]
         k = np.array(factors)
         total = float(self.energy.sum())
         left = total + k**2 * self._said - 2.0 * k * alike

@@ -38,8 +38,8 @@ class DeviceSocket:
         self._server, self._send, self._errors = server, send, 0
         shape, axes = asked(query)
         self.device = server.hub.device(name, "websocket", shape or "board")
-        if shape is not None:
-            self.device.shape = shape  # it may be known from a recording that goes on
+        if shape not in (None, self.device.shape):
+            server.hub.reshape(self.device, shape)
         self._motion = Motion(self.device, axes, self._event)
         self._noted = 0.0
         self._allowance, self._filled = _BURST * server.hub.max_rate, time.monotonic()

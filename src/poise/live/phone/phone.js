@@ -28,6 +28,8 @@ function showProblem(problem) {
   if (!problem) return;
   $("problem-title").textContent = problem.title;
   $("problem-text").textContent = problem.text;
+  $("problem-code").hidden = !problem.code;
+  $("problem-code").textContent = problem.code ?? "";
   $("problem-link").hidden = !problem.link;
   if (problem.link) Object.assign($("problem-link"), { href: problem.link.href, textContent: problem.link.text });
 }
@@ -112,20 +114,23 @@ function hear(message) {
 function showAxes({ axes, reason }) {
   $("hint").hidden = Boolean(axes);
   $("hint").textContent = axes ? "" : `Which way this browser's sensors point is not known yet: ${reason}.`;
-  if (axes) note(`Sensors' axes, found from the motion: ${axes}`);
+  if (!axes) return;
+  const [acceleration, rates, unit] = axes.replaceAll("-", "−").split(",");
+  note(`The motion shows: acceleration ${acceleration}, rates ${rates} (alpha, beta, gamma) in ${unit}/s.`);
 }
 
 function showAttitude(message) {
   lastAttitude = performance.now();
   const known = message.quat_wxyz.every((value) => value !== null);
   $("tilt").textContent = degrees(message.tilt_deg, 1);
-  $("heading").textContent = degrees(message.heading_deg, 0);
+  if (known) facing ??= message.heading_deg;
+  $("heading").textContent = degrees(known ? (message.heading_deg - facing + 360) % 360 : null, 0);
   $("valid").textContent = message.valid ? "yes" : `no: ${message.flags.join(", ").toLowerCase().replaceAll("_", " ")}`;
   $("valid").dataset.tone = message.valid ? "good" : "bad";
   $("apart").textContent = message.apart_deg === null ? "–" : `${message.apart_deg.toFixed(1)}° off`;
   $("apart").dataset.tone = message.apart_deg > 30 ? "bad" : message.apart_deg > 10 ? "warn" : "";
   $("slab").dataset.known = known ? "yes" : "no";
-  if (known) draw(message.quat_wxyz, message.heading_deg);
+  if (known) draw(message.quat_wxyz);
 }
 
 function unknown() {
@@ -147,14 +152,14 @@ function showNumbers() {
 }
 
 /** Turns the drawn phone as the server's quaternion says, seen from where its top pointed away at the start. */
-function draw([w, x, y, z], heading) {
-  facing ??= (heading * Math.PI) / 180;
+function draw([w, x, y, z]) {
+  const turned = (facing * Math.PI) / 180;
   const body = [
     [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
   ];
-  const [c, s] = [Math.cos(facing), Math.sin(facing)];
+  const [c, s] = [Math.cos(turned), Math.sin(turned)];
   const [east, north, up] = [
     body[0].map((_, k) => c * body[0][k] - s * body[1][k]),
     body[0].map((_, k) => s * body[0][k] + c * body[1][k]),

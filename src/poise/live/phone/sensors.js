@@ -2,7 +2,7 @@
 
 const FIRST_WITHIN = 3000; // ms until silence means that there are no sensors
 
-/** What keeps this page from the sensors, as {title, text, link}; null: nothing that can be known beforehand. */
+/** What keeps this page from the sensors, as {title, text, code, link}; null: nothing that can be known beforehand. */
 export function withheld() {
   if (!window.isSecureContext) {
     const secure = `https://${location.host}${location.pathname}`;
@@ -10,7 +10,8 @@ export function withheld() {
       title: "No sensors over plain HTTP",
       text:
         "Browsers give the motion sensors to pages that come over HTTPS only, and this one came over plain HTTP. Start the "
-        + "server with --https and scan its code again: poise live phone --host 0.0.0.0 --https",
+        + "server with --https, and scan its code again:",
+      code: "poise live phone --host 0.0.0.0 --https",
       link: { href: secure + location.hash, text: `If it runs with --https already: ${secure}` },
     };
   }
