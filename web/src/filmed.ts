@@ -34,7 +34,7 @@ export class Filmed {
     stretches.sort((a, b) => a.start - b.start);
     const list = stretches.slice(0, SHOWN).map(({ method, flag, start, end, text }) => {
       const [from, to] = [start - film.start, end - film.start];
-      const go = h("button", { class: "stretch", onclick: () => playhead.seek(from) }, key(method.number), h("b", {}, flag.toLowerCase().replaceAll("_", " ")), h("time", {}, `${fixed(from, 2)}–${fixed(to, 2)} s`));
+      const go = h("button", { class: "stretch", onclick: () => playhead.seek(from) }, key(method.number), h("b", {}, method.reference ? "no reference" : flag.toLowerCase().replaceAll("_", " ")), h("time", {}, `${fixed(from, 2)}–${fixed(to, 2)} s`));
       go.title = `${method.name}: ${text}`;
       return h("li", {}, go);
     });

@@ -120,6 +120,7 @@ class Page {
     window.poise = {
       drawn: (id: string, method = 0) => (this.shown instanceof Detail && this.shown.device.id === id ? this.shown.drawn(method) : this.shown instanceof Grid ? this.shown.drawn(id) : null),
       redraws: () => this.stage.redraws,
+      painted: () => this.version,
       store: this.store,
       playhead: this.playhead,
     };
