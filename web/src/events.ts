@@ -1,0 +1,34 @@
+// What happened, the newest first.
+
+import { h } from "./dom";
+import type { LiveEvent } from "./protocol";
+import type { Store } from "./store";
+
+const SHOWN = 40;
+
+export class Events {
+  readonly element: HTMLElement;
+  private list = h("ol", { class: "events" });
+  private newest = -1;
+
+  /** Of one device, or of all. */
+  constructor(private store: Store, private id: string | null) {
+    this.element = h("section", { class: "panel", "aria-label": "Events" }, h("h2", {}, "Events"), this.list);
+    this.sync();
+  }
+
+  sync(): void {
+    const found = this.store.events.filter((event) => this.id === null || event.device === this.id || event.device === null).slice(-SHOWN);
+    const newest = found.at(-1)?.number ?? 0;
+    if (newest === this.newest) return;
+    this.newest = newest;
+    this.list.replaceChildren(...found.reverse().map(row));
+    if (!found.length) this.list.append(h("li", { class: "none" }, "Nothing yet"));
+  }
+}
+
+function row(event: LiveEvent): HTMLElement {
+  const at = new Date(1000 * event.time);
+  const loud = event.kind === "tip" && ["TIPPING", "FALLEN", "FREE_FALL"].includes(event.state ?? "");
+  return h("li", { class: loud ? "bad" : "" }, h("time", { datetime: at.toISOString() }, at.toLocaleTimeString([], { hour12: false })), h("span", {}, event.text));
+}
