@@ -83,8 +83,8 @@ def compare(
 
 def _run(name: str, estimator: Any, recording: Recording) -> Run:
     from poise.estimators.batch import estimate
-    from poise.estimators.wrapping import core
     from poise.estimators.parameters import as_dict
+    from poise.estimators.wrapping import core
 
     has_heading, run = True, Run(name, "method", {})
     try:
