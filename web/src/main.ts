@@ -41,7 +41,6 @@ class Page {
     this.bar = new Bar(this.store, new PhoneDialog(source), new DownloadDialog(this.store, source), () => this.chosen);
     this.transport = new Transport(this.store, this.playhead);
     this.store.on(["hello", "devices"], () => this.show());
-    this.store.on(["event"], () => this.sync());
     this.store.on(["connection"], () => {
       if (this.store.link.state === "refused") token.ask(this.store.link.reason);
       this.slow();
@@ -82,13 +81,8 @@ class Page {
       if (this.shown instanceof Grid) main.append((this.all = new Events(this.store, null)).element);
       scrollTo(0, 0);
     }
-    this.sync();
-    this.slow();
-  }
-
-  private sync(): void {
     this.shown?.sync();
-    this.all?.sync();
+    this.slow();
   }
 
   private slow(): void {
@@ -102,6 +96,7 @@ class Page {
     if (now - this.last < LEAST_BETWEEN) return;
     this.last = now;
     this.shown?.update(now);
+    this.all?.update(now);
     this.transport.update(now);
     if (this.version === this.store.version && !this.stage.dirty) return;
     this.version = this.store.version;
