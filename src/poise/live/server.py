@@ -29,9 +29,11 @@ if TYPE_CHECKING:
     from poise.live.batch import Batch
     from poise.live.device import Device
     from poise.live.devices import Source
+    from poise.live.film import Film
     from poise.live.recorder import Recorder
 
 DASHBOARD = Path(__file__).parent / "dashboard"
+PHONE = Path(__file__).parent / "phone"
 _HEALTH_EVERY = 1.0  # s
 _FLAGS_EVERY = 0.25  # s that a flag stays in `flags_since`, so that every viewer sees it
 _BACKLOG = 8192
@@ -56,15 +58,28 @@ class Options:
     hosts: tuple[str, ...] = ()
     certificate: tuple[Path, Path] | None = None
     """certificate and key, for HTTPS"""
+    phone_token: str = ""
+    """what a phone's page shows; given to whoever may write"""
+    made_token: str = ""
+    """a token that was made up at the start, which nobody knows yet"""
+    own_certificate: bool = False
+    """whether this machine made its certificate itself"""
 
 
 class Server:
     """A hub, its sources, its recorder and whoever is connected, in one event loop."""
 
     def __init__(
-        self, hub: Hub, sources: Sequence[Source] = (), options: Options | None = None, recorder: Recorder | None = None
+        self,
+        hub: Hub,
+        sources: Sequence[Source] = (),
+        options: Options | None = None,
+        recorder: Recorder | None = None,
+        films: Sequence[Film] = (),
     ) -> None:
         self.hub, self.sources, self.options, self.recorder = hub, sources, options or Options(), recorder
+        self.films = tuple(films)
+        """recordings for pages to play"""
         self.viewers: dict[Viewer, None] = {}
         self.device_sockets: dict[DeviceSocket, None] = {}
         self.listeners: set[asyncio.Queue[dict[str, Any]]] = set()
@@ -271,6 +286,7 @@ class Server:
             "invalid_flags": INVALID,
             "offers": self.offers,
             "recording": self.recorder.condition() if self.recorder else None,
+            "films": len(self.films),
         }
 
     def device_list(self) -> dict[str, Any]:
