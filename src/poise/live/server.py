@@ -154,6 +154,7 @@ class Server:
     async def _ticking(self) -> None:
         due, forget, listed = 0.0, 0.0, 0.0
         slices: list[list[Device]] = []
+        headings: list[str] = []
         while True:
             self.hub.tick()
             now = time.monotonic()
@@ -170,6 +171,8 @@ class Server:
             if now > due:
                 due, devices = now + _HEALTH_EVERY, list(self.hub.devices.values())
                 slices = [devices[k : k + _SLICE] for k in range(0, max(len(devices), 1), _SLICE)]
+                before, headings = headings, [r.stream.heading_reference for d in devices for r in d.runs]
+                self._changed |= headings != before  # a magnetometer has spoken: zero means something else now
             if slices:
                 self._say(partial(self.health, slices.pop()))
             await asyncio.sleep(self.hub.pause)
