@@ -40,7 +40,7 @@ def live(
 
     - `ws`: devices connect by themselves and push, to `ws://HOST:PORT/ws/device/NAME`; always on, whatever else is given
     - `replay:FILE`: a recording as a device, `replay:FILE@10` ten times as fast, `@max` as fast as it can be taken
-
+    - `sim:balance`, `sim:arm`, `sim:handle`, `sim:attitude`: a simulated world; `sim:arm?seed=2&pace=0.5@2`
     - `udp::9000`, `udp:127.0.0.1:9000`: datagrams with samples, on all addresses of this machine or one
     - `serial:/dev/ttyUSB0`: text lines or binary frames; unplugged and plugged in again it goes on
     - `mqtt://HOST/TOPIC`: messages at a broker, by default of `poise/+`; the last level names the device
@@ -48,7 +48,7 @@ def live(
     Attitudes come out over WebSocket and HTTP; docs/live.md has the protocol, a client of ten lines and a `curl` example.
     Only this machine can connect unless --host says otherwise, and then a --token is needed.
 
-    Examples: `poise live`; `poise live replay:walk.csv -m self-calibrating -m two-stage`;
+    Examples: `poise live`; `poise live sim:balance`; `poise live replay:walk.csv -m self-calibrating -m two-stage`;
     `poise live --host 0.0.0.0 --token $(openssl rand -hex 16)`
 
     Parameters
@@ -126,7 +126,7 @@ def _server(
     from poise.live.devices import DeviceError
     from poise.live.hub import Hub
     from poise.live.server import Server
-    from poise.live.sources import source
+    from poise.live.sources import apart, source
 
     record, describe, tipover = files
     if not 1.0 <= max_rate <= 1e6:
@@ -135,14 +135,14 @@ def _server(
     try:
         options = _options(*where)
         description = Description.read(describe) if describe is not None else None
-        found = [source(word, reading.read, description) for word in words]
+        found = apart([each for word in words if (each := source(word, reading.read, description)) is not None])
         recorder = None
         if record is not None:
             from poise.live.recorder import Recorder
             from poise.live.session import Session
 
             recorder = Recorder(Session.below(record))
-        return Server(hub, [each for each in found if each is not None], options, recorder)
+        return Server(hub, found, options, recorder)
     except (AccessError, DeviceError) as error:
         usage(str(error))
 
