@@ -13,6 +13,7 @@ from poise.cli.options import Reading, UsageError, method_choices, usage
 from poise.errors import PoiseError
 
 if TYPE_CHECKING:
+    from poise.live.hub import Hub
     from poise.live.server import Options, Server
     from poise.live.watching import Watch
 
@@ -31,6 +32,7 @@ def live(
     describe: Path | None = None,
     tipover: Path | None = None,
     respond: Annotated[tuple[str, ...], Parameter(negative="")] = (),
+    joint: Annotated[tuple[str, ...], Parameter(negative="")] = (),
     max_rate: float = 5000.0,
     reading: Reading | None = None,
 ) -> int:
@@ -78,6 +80,8 @@ def live(
     respond
         `DEVICE=FILE.toml`: what answers when that device tips over, as for `poise respond`, with the monitor's parameters in
         the same file. Repeat for more devices.
+    joint
+        `NAME=SEGMENT/BASE`: how the device SEGMENT stands seen from the device BASE, as a device of its own. Repeat for more.
     max_rate
         Samples a second above which a device is cut off.
     """
@@ -89,6 +93,7 @@ def live(
             (host, port, token, allow_host),
             (record, describe, tipover),
             respond,
+            joint,
             max_rate,
             reading or Reading(),
         )
@@ -115,6 +120,7 @@ def _server(
     where: Any,
     files: tuple[Path | None, Path | None, Path | None],
     respond: tuple[str, ...],
+    joints: tuple[str, ...],
     max_rate: float,
     reading: Reading,
 ) -> Server:
@@ -132,6 +138,7 @@ def _server(
     if not 1.0 <= max_rate <= 1e6:
         usage(f"--max-rate {max_rate}: expected samples a second, 1 to 1e6")
     hub = Hub(method_choices(names, settings), max_rate, _watch(tipover, respond))
+    _add_joints(hub, joints)
     try:
         options = _options(*where)
         description = Description.read(describe) if describe is not None else None
@@ -145,6 +152,18 @@ def _server(
         return Server(hub, found, options, recorder)
     except (AccessError, DeviceError) as error:
         usage(str(error))
+
+
+def _add_joints(hub: Hub, joints: tuple[str, ...]) -> None:
+    for text in joints:
+        name, equals, devices = text.partition("=")
+        segment, slash, base = devices.partition("/")
+        if not (equals and slash) or name in hub.joints.all:
+            usage(f"--joint {text!r}: expected NAME=SEGMENT/BASE, once a name")
+        try:
+            hub.set_joint(name, segment, base)
+        except PoiseError as error:
+            usage(f"--joint {text!r}: {error}")
 
 
 def _watch(tipover: Path | None, respond: tuple[str, ...]) -> Watch | None:

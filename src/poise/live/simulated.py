@@ -36,6 +36,9 @@ class Simulated:
     :class:`DeviceError` for a world or option that cannot be, and without MuJoCo.
     """
 
+    one_clock = True
+    """all its devices' stamps count from one instant"""
+
     def __init__(self, name: str, speed: float = 1.0, /, **options: Any) -> None:
         from poise.simulation import worlds
 
