@@ -13,6 +13,8 @@ import numpy as np
 from poise.data.attitude import Attitude
 from poise.errors import PoiseError
 from poise.live.access import App, Receive, Scope, Send
+from poise.live.address import for_phones, svg_qr
+from poise.live.certificate import public_part
 from poise.live.hub import HubError
 from poise.live.joint import Joint
 from poise.live.metrics import metrics
@@ -33,6 +35,7 @@ POST /devices/NAME/heading         "this way is forward"
 PUT  /joints/NAME                  a device seen from another: {"segment": …, "base": …}; DELETE
 GET  /methods                      methods and their parameters
 GET  /events                       what happens, as server-sent events
+GET  /phone                        a page that makes a phone a device
 GET  /healthz, /metrics            health, for people and for Prometheus
 WS   /ws/view                      attitudes as they come
 WS   /ws/device/NAME               samples in
@@ -45,6 +48,8 @@ def needed(method: str, path: str) -> Scope | None:
         return "device"
     if path == "/healthz":
         return None
+    if path == "/phone/qr.svg":
+        return "write"  # it holds a token that devices push with
     if path.startswith(("/devices", "/joints", "/methods", "/events", "/metrics", "/ws/view", "/recordings", "/films")):
         return "read" if method in ("GET", "HEAD") else "write"
     return None  # the page itself holds no data
@@ -53,11 +58,11 @@ def needed(method: str, path: str) -> Scope | None:
 def application(server: Server) -> App:
     """The application, without the gate before it."""
     from starlette.applications import Starlette
-    from starlette.responses import JSONResponse, PlainTextResponse, Response, StreamingResponse
+    from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response, StreamingResponse
     from starlette.routing import Mount, Route, WebSocketRoute
     from starlette.staticfiles import StaticFiles
 
-    from poise.live.server import DASHBOARD
+    from poise.live.server import DASHBOARD, PHONE
 
     hub = server.hub
 
@@ -126,6 +131,20 @@ def application(server: Server) -> App:
     async def prometheus(request: Request) -> Response:
         return PlainTextResponse(metrics(server), media_type="text/plain; version=0.0.4; charset=utf-8")
 
+    async def phone(request: Request) -> Response:
+        return FileResponse(PHONE / "index.html", headers={"cache-control": "no-cache"})
+
+    async def qr(request: Request) -> Response:
+        link = for_phones(server.options)
+        if link is None:
+            return JSONResponse({"error": "no phone can get here: `poise live phone --host 0.0.0.0 --https`"}, 404)
+        return Response(svg_qr(link), media_type="image/svg+xml", headers={"cache-control": "no-store"})
+
+    async def own_certificate(request: Request) -> Response:
+        if server.options.certificate is None:
+            return JSONResponse({"error": "this server has no certificate: it was started without --https"}, 404)
+        return Response(public_part(server.options.certificate[0]), media_type="application/x-x509-ca-cert")
+
     async def no_page(request: Request) -> Response:
         return PlainTextResponse(_NO_PAGE)
 
@@ -147,6 +166,10 @@ def application(server: Server) -> App:
             Route("/events", events),
             Route("/healthz", healthz),
             Route("/metrics", prometheus),
+            Route("/phone", phone),
+            Route("/phone/qr.svg", qr),
+            Route("/phone/certificate.crt", own_certificate),
+            Mount("/phone", StaticFiles(directory=PHONE)),
             WebSocketRoute("/ws/view", _View(server)),
             WebSocketRoute("/ws/device/{name}", _Push(server)),
             page,
@@ -175,7 +198,7 @@ class _Push:
     async def __call__(self, scope: MutableMapping[str, Any], receive: Receive, send: Send) -> None:
         await receive()
         try:
-            socket = DeviceSocket(self._server, scope["path_params"]["name"], send)
+            socket = DeviceSocket(self._server, scope["path_params"]["name"], send, scope.get("query_string", b""))
         except PoiseError as problem:
             await send({"type": "websocket.http.response.start", "status": 400, "headers": []})
             await send({"type": "websocket.http.response.body", "body": f"{problem}\n".encode()})

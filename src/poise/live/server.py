@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from poise.live.recorder import Recorder
 
 DASHBOARD = Path(__file__).parent / "dashboard"
+PHONE = Path(__file__).parent / "phone"
 _HEALTH_EVERY = 1.0  # s
 _FLAGS_EVERY = 0.25  # s that a flag stays in `flags_since`, so that every viewer sees it
 _BACKLOG = 8192
@@ -62,6 +63,12 @@ class Options:
     hosts: tuple[str, ...] = ()
     certificate: tuple[Path, Path] | None = None
     """certificate and key, for HTTPS"""
+    phone_token: str = ""
+    """what a phone's page shows; given to whoever may write"""
+    made_token: str = ""
+    """a token that was made up at the start, which nobody knows yet"""
+    own_certificate: bool = False
+    """whether this machine made its certificate itself"""
 
 
 class Server:
