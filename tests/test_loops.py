@@ -92,6 +92,18 @@ def test_over_bumps_it_goes_on_and_nothing_is_triggered() -> None:
     assert degrees(np.abs(done["lean"]).max()) < 10.0
 
 
+def test_a_short_loss_is_bridged_by_the_rate_and_a_long_one_is_not() -> None:
+    balancer, doing = Balancer(BalanceControl.design(1.5, 0.12, 0.05, bridge=0.5)), []
+    for i in range(300):
+        row = Attitude.of([0.005 * i], [[np.cos(0.05), -np.sin(0.05), 0.0, 0.0]])
+        row.rate[:], row.flags[:] = (-0.1, 0.0, 0.0), int(Flag.UNSETTLED) if i >= 100 else 0
+        doing.append(balancer.update(row, (0.0, 0.0)) != (0.0, 0.0))
+        if i == 199:
+            assert balancer.state is not None
+            assert balancer.state.lean == pytest.approx(0.1 + 0.1 * 0.5, abs=2e-3)
+    assert all(doing[:200]) and not any(doing[202:])
+
+
 @pytest.mark.parametrize("field", ["body_mass", "height", "wheel_radius"])
 def test_a_bad_robot_is_named(field: str) -> None:
     given = {"body_mass": 1.5, "height": 0.12, "wheel_radius": 0.05, field: -1.0}

@@ -55,6 +55,8 @@ class State(NamedTuple):
     way: float  # m, that it has gone
     wanted: float  # m, where it was to be by now
     pace: float  # m/s, the wanted speed on its ramp
+    lean: float  # rad
+    blind: float  # s since the attitude was valid
 
 
 class BalanceControl(NamedTuple):
@@ -62,7 +64,8 @@ class BalanceControl(NamedTuple):
 
     ``torque = Kφ φ + Kω φ' + Kv (v − v*) + Ks (s − s*)`` for both wheels together; s* runs with the wanted speed v*, which
     changes by no more than *acceleration*, and is dragged along where s is more than *reach* away. Without a valid attitude, a
-    measured rate and wheels, or leaning beyond *give_up*, there is no torque. No torque is ever NaN.
+    measured rate and wheels, or leaning beyond *give_up*, there is no torque; but for *bridge* s a lean that was valid
+    before is carried on by the measured rate. No torque is ever NaN.
 
     A wheel that leaves the ground spins up within some hundredths of a second, and a speed that believed it would make both
     motors follow. So each wheel tells the axle's speed, with the gyroscope's turning rate over *track* taken out; the one
@@ -84,6 +87,9 @@ class BalanceControl(NamedTuple):
     grip: Annotated[float, "m/s²", "most acceleration that the tyres can give", (1e-3, 1e6)] = 8.0
     slip: Annotated[float, "m/s", "how far a wheel's speed may be off by the encoder's steps", (1e-6, 1e6)] = 0.1
     traction: Annotated[float, "N m s/m", "torque against the slip of a wheel beyond that"] = 0.3
+    bridge: Annotated[
+        float, "s", "how long it balances on by the rate alone when the attitude is not valid", (0.0, 60.0)
+    ] = 0.0
     give_up: Annotated[float, "rad", "largest lean that is still balanced", (0.0, 3.2)] = radians(50.0)
 
     @classmethod
@@ -135,15 +141,19 @@ class BalanceControl(NamedTuple):
         return cls(k_way, k_speed, k_lean, k_rate, r, **limits)
 
     def start(self, out: Output, wheels: Wheels, drive: Drive) -> State:
-        return _rest(_rolled(self, out, wheels))
+        up = up_in_body(out.attitude)
+        return _rest(_rolled(self, atan2(-up.y, up.z), wheels))
 
     def step(self, state: State, out: Output, wheels: Wheels, drive: Drive) -> State:
         dt = out.dt if 0.0 < out.dt < 1.0 else 0.0
-        rolled = _rolled(self, out, wheels)
-        known = inner(out.attitude, out.attitude) + rolled.left + rolled.right + drive.speed + drive.turn
         up = up_in_body(out.attitude)
-        lean = atan2(-up.y, up.z)
-        stands = out.flags & INVALID == 0 and present(out.rate) and known - known == 0.0 and abs(lean) <= self.give_up
+        valid, blind, lean = out.flags & INVALID == 0, 0.0, atan2(-up.y, up.z)
+        if not valid:
+            blind, lean = state.blind + dt, state.lean - out.rate.x * dt
+            valid = state.doing == BALANCING and blind <= self.bridge
+        rolled = _rolled(self, lean, wheels)
+        known = inner(out.attitude, out.attitude) + rolled.left + rolled.right + drive.speed + drive.turn
+        stands = valid and present(out.rate) and known - known == 0.0 and abs(lean) <= self.give_up
         if not stands:
             return _rest(rolled)
         hubs, speed = state.hubs, state.speed
@@ -164,7 +174,7 @@ class BalanceControl(NamedTuple):
         left -= self.traction * _beyond(hubs.left - speed, self.slip)
         right -= self.traction * _beyond(hubs.right - speed, self.slip)
         left, right = _within(left, self.torque_limit), _within(right, self.torque_limit)
-        return State(left, right, BALANCING, rolled, hubs, speed, way, wanted, pace)
+        return State(left, right, BALANCING, rolled, hubs, speed, way, wanted, pace, lean, blind)
 
 
 @compiled
@@ -174,14 +184,12 @@ def _told(wheels: Wheels) -> bool:
 
 @compiled
 def _rest(rolled: Wheels) -> State:
-    return State(0.0, 0.0, OFF, rolled, Wheels(0.0, 0.0), 0.0, 0.0, 0.0, 0.0)
+    return State(0.0, 0.0, OFF, rolled, Wheels(0.0, 0.0), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @compiled
-def _rolled(control: BalanceControl, out: Output, wheels: Wheels) -> Wheels:
+def _rolled(control: BalanceControl, lean: float, wheels: Wheels) -> Wheels:
     """m, how far the wheels have rolled: they turn against a body that leans itself."""
-    up = up_in_body(out.attitude)
-    lean = atan2(-up.y, up.z)
     return Wheels(control.wheel_radius * (wheels.left + lean), control.wheel_radius * (wheels.right + lean))
 
 
