@@ -20,6 +20,7 @@ import poise
 from browsing import chromium, until
 from data_files import data_path
 from live_helpers import METHOD, seen, serving, wait_for
+from poise.live.address import own_addresses
 from poise.live.certificate import own_certificate
 from poise.live.methods import Choice
 
@@ -296,3 +297,16 @@ def test_a_wrong_token_and_a_hidden_page_are_told(browser: Any) -> None:
             page.click("#stop")
             assert page.text_content("#state") == "Stopped"
             wait_for(lambda: not running.server.device_sockets)
+
+
+def test_the_dashboard_shows_the_code_to_those_who_may_write(browser: Any) -> None:
+    if not own_addresses():
+        pytest.skip("this machine is in no network")
+    full = "a-token-for-all-of-it"
+    tokens = {DEVICE: frozenset({"device"}), full: frozenset({"read", "write"})}
+    with serving(host="0.0.0.0", tokens=tokens, phone_token=DEVICE) as running, browser.new_context() as context:
+        page = context.new_page()
+        page.goto(f"http://{running.address}/#token={full}")
+        page.click("#phone")
+        page.wait_for_selector("dialog[open] img")
+        until(page, "document.querySelector('dialog[open] img').naturalWidth > 0")
