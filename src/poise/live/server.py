@@ -314,10 +314,7 @@ class Server:
         return {
             "type": "health",
             "time": time.time(),
-            "devices": [
-                each.condition(hub.devices, now) if isinstance(each, Joint) else each.condition(now)
-                for each in devices or hub.shown
-            ],
+            "devices": hub.conditions(devices or hub.shown, now),
             "viewers": len(self.viewers),
             "wait_ms": {"p50": round(1e3 * waits.quantile(0.5), 3), "p99": round(1e3 * waits.quantile(0.99), 3)},
             "recording": self.recorder.condition() if self.recorder else None,
