@@ -210,6 +210,8 @@ class Server:
 
     async def _feed(self, source: Source) -> None:
         """A source's packets to the hub; what goes wrong with it is an event, and other devices go on."""
+        if hasattr(source, "tell"):
+            source.tell = lambda text: self.hub.event("source", None, text)
         timebase = source.name if getattr(source, "one_clock", False) else ""
         try:
             async for arrival in source.arrivals():
