@@ -39,6 +39,7 @@ def live(
     respond: Annotated[tuple[str, ...], Parameter(negative="")] = (),
     joint: Annotated[tuple[str, ...], Parameter(negative="")] = (),
     max_rate: float = 5000.0,
+    open: bool | None = None,
     reading: Reading | None = None,
 ) -> int:
     """Serve the attitude of devices as their samples come.
@@ -97,6 +98,8 @@ def live(
         `NAME=SEGMENT/BASE`: how the device SEGMENT stands seen from the device BASE, as a device of its own. Repeat for more.
     max_rate
         Samples a second above which a device is cut off.
+    open
+        Open the page in a browser; done unless told where there is a terminal and a screen.
     """
     try:
         server = _server(
@@ -120,7 +123,7 @@ def live(
     from poise.live.serving import run
 
     try:
-        run(_told(server, "phone" in (sources or [])))
+        run(_told(server, "phone" in (sources or []), open))
     except (PoiseError, OSError) as error:
         show.problem(error)
         return 1
@@ -234,11 +237,12 @@ def _certificate(options: Options, https: bool, cert: Path | None, key: Path | N
     return certificate.own_certificate(certificate.names_of(options.host, options.hosts))
 
 
-async def _told(server: Server, phone: bool) -> None:
+async def _told(server: Server, phone: bool, opened: bool | None) -> None:
     """Runs *server* and says where it is and what happens to its devices."""
     import asyncio
 
-    from poise.cli.phone import addresses, tell_phone
+    from poise.cli.page import show_in_browser
+    from poise.cli.phone import addresses, page_address, tell_phone
 
     server.hub.on_event.append(lambda event: show.note(event["text"]))
     ready = asyncio.Event()
@@ -249,6 +253,7 @@ async def _told(server: Server, phone: bool) -> None:
             print(line, flush=True)
         if phone:
             tell_phone(server.options, sys.stdout)
+        await asyncio.to_thread(show_in_browser, page_address(server.options), opened)
 
     telling = asyncio.create_task(tell())
     try:

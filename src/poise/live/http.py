@@ -129,7 +129,7 @@ def application(server: Server) -> App:
         return StreamingResponse(pieces(), media_type=_PARQUET, headers=attachment | {"content-length": size})
 
     async def films(request: Request) -> Response:
-        hello = {key: server.hello()[key] for key in ("server", "flags")}
+        hello = {key: server.hello()[key] for key in ("server", "flags", "invalid_flags")}
         return JSONResponse(hello | {"films": [film.described(k) for k, film in enumerate(server.films)]})
 
     async def film_frame(request: Request) -> Response:
@@ -213,6 +213,7 @@ def application(server: Server) -> App:
         ],
         exception_handlers={PoiseError: refused, ValueError: refused, OSError: refused},
     )
+    server.offers = sorted({"/phone", "/recordings"} & {getattr(route, "path", "") for route in app.routes})
     return app  # type: ignore[no-any-return]
 
 

@@ -15,7 +15,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from poise.data.flags import SENTENCES, Flag
+from poise.data.flags import INVALID, SENTENCES, Flag
 from poise.errors import PoiseError
 from poise.live import frames, http
 from poise.live.access import Access, Gate
@@ -89,6 +89,8 @@ class Server:
         self.device_sockets: dict[DeviceSocket, None] = {}
         self.listeners: set[asyncio.Queue[dict[str, Any]]] = set()
         self.access = Access(self.options.host, self.options.tokens, self.options.hosts)
+        self.offers: list[str] = []
+        """which of the pages that not every server has this one has"""
         self.app = Gate(http.application(self), self.access, http.needed)
         self.stopping = asyncio.Event()
         self.began = time.monotonic()
@@ -158,6 +160,7 @@ class Server:
     async def _ticking(self) -> None:
         due, forget, listed = 0.0, 0.0, 0.0
         slices: list[list[Device | Joint]] = []
+        headings: list[str] = []
         while True:
             self.hub.tick()
             now = time.monotonic()
@@ -174,6 +177,11 @@ class Server:
             if now > due:
                 due, devices = now + _HEALTH_EVERY, self.hub.shown
                 slices = [devices[k : k + _SLICE] for k in range(0, max(len(devices), 1), _SLICE)]
+                before, headings = (
+                    headings,
+                    [r.stream.heading_reference for d in self.hub.devices.values() for r in d.runs],
+                )
+                self._changed |= headings != before  # a magnetometer has spoken: zero means something else now
             if slices:
                 self._say(partial(self.health, slices.pop()))
             await asyncio.sleep(self.hub.pause)
@@ -294,6 +302,8 @@ class Server:
             "may_write": may_write,
             "methods": described(),
             "flags": {f.bit_length() - 1: [f.name, SENTENCES[f]] for f in Flag},
+            "invalid_flags": INVALID,
+            "offers": self.offers,
             "recording": self.recorder.condition() if self.recorder else None,
             "films": len(self.films),
         }
