@@ -170,7 +170,7 @@ def test_over_the_wire(capsys: pytest.CaptureFixture[str]) -> None:
         assert [each["id"] for each in health] == ["a", "b", "elbow"]
         assert live.http.put("/joints/knee", json={"segment": "b", "base": "a"}).json()["shape"] == "joint"
         assert live.http.delete("/joints/knee").status_code == 204
-        assert live.http.delete("/joints/knee").status_code == 400
+        assert live.http.delete("/joints/knee").status_code == 404
         assert live.http.put("/joints/knee", json=[1]).status_code == 400
         assert ask(viewer, type="remove_joint", name="elbow")["type"] == "done"
         assert [d["id"] for d in live.http.get("/devices").json()] == ["a", "b"]

@@ -53,6 +53,7 @@ def live(
     - `udp::9000`, `udp:127.0.0.1:9000`: datagrams with samples, on all addresses of this machine or one
     - `serial:/dev/ttyUSB0`: text lines or binary frames; unplugged and plugged in again it goes on
     - `mqtt://HOST/TOPIC`: messages at a broker, by default of `poise/+`; the last level names the device
+    - `ble:NAME`, `ble:AA:BB:CC:DD:EE:FF`: a device over Bluetooth Low Energy, as --describe says
 
     Attitudes come out over WebSocket and HTTP; docs/live.md has the protocol, a client of ten lines and a `curl` example.
     Only this machine can connect unless --host says otherwise, and then a --token is needed.
@@ -87,7 +88,7 @@ def live(
         A folder to keep samples and attitudes in, as Parquet files, one a device and one a method of it. A device is
         told what is on the disk. After a crash the same command goes on where it was; `poise recover` just saves what is there.
     describe
-        A TOML file that says what text lines or binary frames from a serial port, UDP or MQTT mean; see docs/live.md.
+        A TOML file that says what text lines or binary frames from a serial port, UDP, MQTT or BLE mean; see docs/live.md.
     tipover
         A TOML file with the tip-over monitor's parameters, as for `poise tipover`: every device is watched.
     respond

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import asyncio
 import json
+import os
 from collections.abc import AsyncIterator, MutableMapping
 from math import degrees, isfinite
 from typing import TYPE_CHECKING, Any
+from urllib.parse import quote
 
 import numpy as np
 
@@ -18,6 +20,7 @@ from poise.live.certificate import public_part
 from poise.live.hub import HubError
 from poise.live.joint import Joint
 from poise.live.metrics import metrics
+from poise.live.recordings import NoRecording, finished, listed, running, snapshot
 from poise.live.sockets import DeviceSocket, Viewer, accept
 
 if TYPE_CHECKING:
@@ -26,6 +29,7 @@ if TYPE_CHECKING:
 
     from poise.live.server import Server
 
+_PARQUET = "application/vnd.apache.parquet"
 _NO_PAGE = """poise live is running. Its dashboard is not part of this installation; what it serves:
 
 GET  /devices                      devices and their methods
@@ -36,6 +40,7 @@ PUT  /joints/NAME                  a device seen from another: {"segment": …, 
 GET  /methods                      methods and their parameters
 GET  /events                       what happens, as server-sent events
 GET  /phone                        a page that makes a phone a device
+GET  /recordings, /recordings/NAME  what was recorded, as Parquet files
 GET  /healthz, /metrics            health, for people and for Prometheus
 WS   /ws/view                      attitudes as they come
 WS   /ws/device/NAME               samples in
@@ -94,6 +99,35 @@ def application(server: Server) -> App:
         server.change("joint", await _object(request) | {"name": name})
         return JSONResponse(hub.joints.all[name].described(hub.devices))
 
+    making = asyncio.Lock()  # one at a time: making a file takes a core
+
+    async def recordings(request: Request) -> Response:
+        session = None if server.recorder is None else server.recorder.session
+        found = [] if session is None else await asyncio.to_thread(listed, session, list(hub.devices.values()))
+        return JSONResponse(found)
+
+    async def recording(request: Request) -> Response:
+        name = "{session}/{file}".format(**request.path_params)
+        if server.recorder is None:
+            raise NoRecording(f"{name[:160]}: this server does not record; --record FOLDER does")
+        session, file = server.recorder.session, request.path_params["file"]
+        attachment = {"content-disposition": f"attachment; filename*=utf-8''{quote(file)}"}
+        if path := (await asyncio.to_thread(finished, session.root)).get(name):
+            return FileResponse(path, media_type=_PARQUET, headers=attachment)
+        device = running(hub.devices.values()).get(name)
+        if device is None:
+            raise NoRecording(f"no recording {name[:160]!r}; GET /recordings lists them")
+        async with making:
+            made = await asyncio.to_thread(snapshot, session, device, file)
+        size = str(os.fstat(made.fileno()).st_size)
+
+        async def pieces() -> AsyncIterator[bytes]:
+            with made:
+                while piece := await asyncio.to_thread(made.read, 1 << 18):
+                    yield piece
+
+        return StreamingResponse(pieces(), media_type=_PARQUET, headers=attachment | {"content-length": size})
+
     async def films(request: Request) -> Response:
         hello = {key: server.hello()[key] for key in ("server", "flags", "invalid_flags")}
         return JSONResponse(hello | {"films": [film.described(k) for k, film in enumerate(server.films)]})
@@ -149,7 +183,8 @@ def application(server: Server) -> App:
         return PlainTextResponse(_NO_PAGE)
 
     async def refused(request: Request, problem: Exception) -> Response:
-        status = 404 if isinstance(problem, HubError) and str(problem).startswith("no device") else 400
+        absent = isinstance(problem, NoRecording) or str(problem).startswith(("no device", "no joint"))
+        status = 404 if absent else 503 if isinstance(problem, OSError) else 400
         return JSONResponse({"error": str(problem) or type(problem).__name__}, status)
 
     page: Any = Mount("/", StaticFiles(directory=DASHBOARD, html=True)) if DASHBOARD.is_dir() else Route("/", no_page)
@@ -163,6 +198,8 @@ def application(server: Server) -> App:
             Route("/methods", methods),
             Route("/films", films),
             Route("/films/{number:int}/frame", film_frame),
+            Route("/recordings", recordings),
+            Route("/recordings/{session}/{file}", recording),
             Route("/events", events),
             Route("/healthz", healthz),
             Route("/metrics", prometheus),
@@ -174,7 +211,7 @@ def application(server: Server) -> App:
             WebSocketRoute("/ws/device/{name}", _Push(server)),
             page,
         ],
-        exception_handlers={PoiseError: refused, ValueError: refused},
+        exception_handlers={PoiseError: refused, ValueError: refused, OSError: refused},
     )
     server.offers = sorted({"/phone", "/recordings"} & {getattr(route, "path", "") for route in app.routes})
     return app  # type: ignore[no-any-return]

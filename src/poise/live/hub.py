@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,7 @@ from poise.live.devices import Shape
 from poise.live.joint import Joint
 from poise.live.joints import Joints
 from poise.live.methods import Choice, startable, warmed
-from poise.live.waits import Waits
+from poise.live.waits import Waits, WaitsOf
 from poise.live.watching import Watch, as_facts, as_text
 
 _EVENTS = 1000
@@ -61,7 +61,7 @@ class Hub:
         self._to_restore: deque[Device] = deque()
         self._event_number = 0
         self._last_tick = 0.0
-        self.waits = Waits()
+        self.waits, self.waits_of = Waits(), WaitsOf()
         self.tick_cost = 0.0
         """s, the running mean of what a tick with samples takes"""
 
@@ -211,13 +211,13 @@ class Hub:
         for device in ready:
             del self._waiting[device]
         wall = time.time() - now  # from the monotonic clock to the calendar's
-        parts, spans, row, out, oldest = [], [], 0, 0, now
+        parts, spans, row, out, arrived = [], [], 0, 0, []
         for device in ready:
             taken = device.take()
             parts.append(taken.rows)
             first, n = taken.sequence, len(taken.rows)
             device.clock.update(float(taken.rows[-1, 0]), taken.arrived)
-            oldest = min(oldest, taken.first_arrived)
+            arrived.append(taken.first_arrived)
             for run in device.runs:
                 spans.append(Span(device, run, first, slice(row, row + n), slice(out, out + n)))
                 out += n
@@ -233,7 +233,9 @@ class Hub:
         self.joints.advance(batch, now)
         for told in self.on_batch:
             told(batch)
-        self.waits.add(now - oldest + time.perf_counter() - began)
+        waited = now - np.array(arrived) + (time.perf_counter() - began)
+        self.waits.add(float(waited.max()))
+        self.waits_of.add(np.array([device.number for device in ready]), waited)
         self.tick_cost += 0.1 * (time.perf_counter() - began - self.tick_cost)
         return batch
 
@@ -302,6 +304,21 @@ class Hub:
     def _changed(self) -> None:
         for told in self.on_change:
             told()
+
+    def conditions(self, of: Iterable[Device | Joint], now: float) -> list[dict[str, Any]]:
+        """How devices and joints fare, with how long a sample waits for its attitude; that of a joint is not measured."""
+        each_of = list(of)
+        numbers = [each.number for each in each_of]
+        both = (self.waits_of.quantiles(numbers, share) for share in (0.5, 0.99))
+        found = []
+        for each, middle, most in zip(each_of, *both, strict=True):
+            if isinstance(each, Joint):
+                waits: dict[str, float | None] = {"p50": None, "p99": None}
+                found.append(each.condition(self.devices, now) | {"wait_ms": waits})
+            else:
+                waits = {"p50": round(1e3 * middle, 3), "p99": round(1e3 * most, 3)}
+                found.append(each.condition(now) | {"wait_ms": waits})
+        return found
 
     def latest(self, device: Device | Joint, method: str | None = None) -> Any:
         """The newest record of *device* by *method* (its first one unless told); None before the first sample."""

@@ -218,6 +218,8 @@ class Server:
 
     async def _feed(self, source: Source) -> None:
         """A source's packets to the hub; what goes wrong with it is an event, and other devices go on."""
+        if hasattr(source, "tell"):
+            source.tell = lambda text: self.hub.event("source", None, text)
         timebase = source.name if getattr(source, "one_clock", False) else ""
         try:
             async for arrival in source.arrivals():
@@ -324,10 +326,7 @@ class Server:
         return {
             "type": "health",
             "time": time.time(),
-            "devices": [
-                each.condition(hub.devices, now) if isinstance(each, Joint) else each.condition(now)
-                for each in devices or hub.shown
-            ],
+            "devices": hub.conditions(devices or hub.shown, now),
             "viewers": len(self.viewers),
             "wait_ms": {"p50": round(1e3 * waits.quantile(0.5), 3), "p99": round(1e3 * waits.quantile(0.99), 3)},
             "recording": self.recorder.condition() if self.recorder else None,

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from poise.data.recording import Recording
     from poise.live.described import Description
 
-WORDS = "ws, phone, replay:FILE[@SPEED], sim:WORLD[@SPEED], udp:[HOST]:PORT, serial:PORT, mqtt://HOST[:PORT]/[TOPIC]"
+WORDS = "ws, phone, replay:FILE[@SPEED], sim:WORLD[@SPEED], udp:[HOST]:PORT, serial:PORT, mqtt://HOST[:PORT]/[TOPIC], ble:NAME"
 
 
 def source(word: str, read: Callable[[Path], Recording], description: Description | None = None) -> Source | None:
@@ -47,6 +47,10 @@ def source(word: str, read: Callable[[Path], Recording], description: Descriptio
         from poise.live.serial_port import SerialPort
 
         return SerialPort(rest, description)
+    if kind == "ble" and rest:
+        from poise.live.ble import Ble
+
+        return Ble(rest, description)
     if kind in ("mqtt", "mqtts"):
         from poise.live.mqtt import Mqtt
 
