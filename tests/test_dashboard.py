@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import hashlib
 import math
-import shutil
 import threading
 import time
 from collections.abc import Iterator
@@ -17,6 +16,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from browsing import chromium
 from live_helpers import Running, seen, serving, wait_for
 from poise.live import frames
 from poise.live.server import DASHBOARD
@@ -25,12 +25,6 @@ from poise.live.watching import Watch
 WEB = Path(__file__).parents[1] / "web"
 RATE = 100.0
 TURN = 0.6  # rad/s
-OPTIONS = [
-    "--no-sandbox",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--enable-unsafe-swiftshader",
-]
 WATCH = """
 window.violations = [];
 document.addEventListener("securitypolicyviolation", (event) => window.violations.push(event.violatedDirective));
@@ -104,15 +98,8 @@ def sending(live: Running, *names: str, samples: Any = turning) -> Iterator[Send
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    """Debian's Chromium: none is downloaded."""
-    path = shutil.which("chromium")
-    if path is None:
-        pytest.skip("no chromium: apt-get install chromium")
-    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-    with playwright.sync_playwright() as started:
-        found = started.chromium.launch(executable_path=path, args=OPTIONS)
+    with chromium() as found:
         yield found
-        found.close()
 
 
 class Shown:

@@ -7,7 +7,7 @@ import re
 import shutil
 import ssl
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -193,6 +193,26 @@ def test_cut_connections_lose_nothing(browser: Any, motion: Any) -> None:
     assert health.lost == 0
     axes = [event for event in running.hub.events if event["kind"] == "axes"]
     assert len(axes) == 1  # the page was told them and tells them again
+
+
+def test_a_server_that_was_restarted_is_sent_what_it_does_not_have(browser: Any, motion: Any) -> None:
+    recording, truth = motion
+    rows = events(recording, truth, -1.0, (0, 1, 2))
+    with ExitStack() as first, ExitStack() as second:
+        running = first.enter_context(serving())
+        page = second.enter_context(phone(browser, f"http://{running.address}", token=""))
+        begin(page)
+        play(page, rows[:500])
+        first.close()
+        page.wait_for_selector("#state[data-tone=warn]")
+        play(page, rows[500:600])
+        again = second.enter_context(serving(port=running.server.options.port))
+        page.wait_for_selector("#state[data-tone=good]")
+        play(page, rows[600:800])
+        wait_for(lambda: again.hub.devices["pocket"].next > 790)
+        device = again.hub.devices["pocket"]
+        assert (device.health.samples, device.health.lost, device.shape) == (device.next, 0, "phone")
+        assert not [event for event in again.hub.events if event["kind"] == "axes"]  # the page knew them
 
 
 def test_a_lasting_difference_from_the_browsers_own_orientation_is_an_event(browser: Any, motion: Any) -> None:

@@ -94,7 +94,7 @@ def viewing(folder: Path, *arguments: str) -> Iterator[tuple[httpx.Client, subpr
         assert process.stdout is not None
         line = process.stdout.readline()
         assert line.startswith("poise view on http://127.0.0.1:"), (line, process.stderr and process.stderr.read())
-        yield httpx.Client(base_url=line.split()[3], timeout=20.0), process
+        yield httpx.Client(base_url=line.split()[3].removesuffix("?view"), timeout=20.0), process
     finally:
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=30.0)

@@ -30,10 +30,10 @@ export class Bar {
         ...(chosen ? [h("h1", {}, chosen)] : []),
       );
       document.title = chosen ? `${chosen} – poise` : "poise";
-      this.download.hidden = devices.size === 0;
+      this.download.hidden = devices.size === 0 || this.store.instant !== null;
     }
     const words = { connecting: "Connecting", open: "Live", lost: "Connection lost", refused: "Token needed" };
-    say(this.state, words[link.state]);
+    say(this.state, this.store.instant && link.state === "open" ? "From file" : words[link.state]);
     this.state.dataset.state = link.state;
     this.state.title = hello?.server ?? "";
     const condition = health?.recording ?? hello?.recording ?? null;

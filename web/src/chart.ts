@@ -42,6 +42,8 @@ export class Chart {
   private stretches: Stretch[] = [];
   private range: [number, number] = [0, 1];
   private data: uPlot.AlignedData = [[]];
+  /** the instant shown of a recording, whose time is counted from its start */
+  private mark: number | null = null;
 
   constructor(private spec: ChartSpec, private sync: uPlot.SyncPubSub) {
     this.values = spec.lines.map(() => h("b"));
@@ -85,7 +87,8 @@ export class Chart {
     this.plot = null;
   }
 
-  set(data: uPlot.AlignedData, range: [number, number], stretches: Stretch[]): void {
+  set(data: uPlot.AlignedData, range: [number, number], stretches: Stretch[], mark: number | null = null): void {
+    this.mark = mark;
     this.data = data;
     this.range = range;
     this.stretches = stretches;
@@ -96,7 +99,7 @@ export class Chart {
   private showValues(): void {
     const hovered = this.plot?.cursor.idx;
     const last = this.data[0].length - 1;
-    const k = hovered ?? last;
+    const k = hovered ?? (this.mark === null ? last : atOrBefore(this.data[0] as number[], this.mark));
     const step = this.spec.bands ? 3 : 1;
     this.values.forEach((value, line) => {
       const found = (this.data[1 + line * step] as (number | null | undefined)[])?.[k];
@@ -127,15 +130,34 @@ export class Chart {
       padding: [6, 4, 0, 0],
       cursor: { sync: { key: this.sync.key, setSeries: false, scales: ["x", null] }, drag: { x: false, y: false }, points: { size: 5 }, y: false },
       scales: {
-        x: { time: true, range: () => this.range },
+        x: { time: this.mark === null, range: () => this.range },
         y: { range: (_, low, high) => span(low, high, spec) },
       },
       axes: [
-        { stroke: ink, grid, ticks: { show: false }, size: spec.foot ? 22 : 4, font: FONT, values: spec.foot ? clock : () => [], space: 70 },
+        { stroke: ink, grid, ticks: { show: false }, size: spec.foot ? 22 : 4, font: FONT, values: (plot, splits) => (spec.foot ? this.times(plot, splits) : []), space: 70 },
         { stroke: ink, grid, ticks: { show: false }, size: AXIS, gap: 4, font: FONT, space: 22, incrs: spec.unit === "°" ? ANGLES : undefined, values: (_, splits) => splits.map((v) => String(Number(v.toPrecision(6))).replace("-", "−")) },
       ],
-      hooks: { drawClear: [(plot) => this.shade(plot)], setCursor: [() => this.showValues()] },
+      hooks: { drawClear: [(plot) => this.shade(plot)], draw: [(plot) => this.point(plot)], setCursor: [() => this.showValues()] },
     };
+  }
+
+  private times(plot: uPlot, splits: number[]): string[] {
+    return this.mark === null ? clock(plot, splits) : splits.map((s) => `${Number(s.toFixed(3))} s`);
+  }
+
+  private point(plot: uPlot): void {
+    if (this.mark === null) return;
+    const { ctx, bbox } = plot;
+    const x = Math.round(plot.valToPos(this.mark, "x", true)) + 0.5;
+    if (x < bbox.left || x > bbox.left + bbox.width) return;
+    ctx.save();
+    ctx.strokeStyle = css("--muted");
+    ctx.lineWidth = devicePixelRatio;
+    ctx.beginPath();
+    ctx.moveTo(x, bbox.top);
+    ctx.lineTo(x, bbox.top + bbox.height);
+    ctx.stroke();
+    ctx.restore();
   }
 
   private shade(plot: uPlot): void {
@@ -151,6 +173,18 @@ export class Chart {
     }
     ctx.restore();
   }
+}
+
+/** The last of *stamps* at or before *time*. */
+function atOrBefore(stamps: number[], time: number): number {
+  let low = 0;
+  let high = stamps.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (stamps[middle] <= time) low = middle + 1;
+    else high = middle;
+  }
+  return low - 1;
 }
 
 const CLOCK = new Intl.DateTimeFormat("en-GB", { timeStyle: "medium" });

@@ -3,6 +3,8 @@
 import { BodyView } from "./bodies";
 import { h, say } from "./dom";
 import { Events } from "./events";
+import { FilmSource } from "./film";
+import { Filmed } from "./filmed";
 import { Link } from "./link";
 import { Methods } from "./methods";
 import type { Playhead } from "./playhead";
@@ -38,13 +40,15 @@ export class Detail {
     this.view = new BodyView(store, playhead, device.id, this.body, device.shape, true);
     this.forward = h("button", { onclick: () => void this.reset() }, "This way is forward");
     this.forward.title = "Sets the heading to 0° where its y axis points now";
-    this.card = h("section", { class: "card", "aria-label": "Attitude" }, this.body, this.readout.element, h("div", { class: "actions" }, this.forward, this.answer));
+    this.card = h("section", { class: "card", "aria-label": "Attitude" }, this.body, this.readout.element, source.live && h("div", { class: "actions" }, this.forward, this.answer));
     this.element = h(
       "div",
       { class: "detail" },
       h("div", { class: "left" }, this.card),
       this.plots.element,
-      h("aside", { class: "side", "aria-label": "Methods, link and events" }, this.methods.element, this.link.element, this.events.element),
+      source instanceof FilmSource
+        ? h("aside", { class: "side", "aria-label": "Methods and flags" }, new Filmed(store, playhead, device.id, source.films.get(device.id)!).element)
+        : h("aside", { class: "side", "aria-label": "Methods, link and events" }, this.methods.element, this.link.element, this.events.element),
     );
     stage.add(this.view);
     if (!stage.works) this.body.append(h("p", { class: "note" }, "This browser draws no WebGL: numbers and plots only."));

@@ -7,7 +7,9 @@ import { DownloadDialog, PhoneDialog, TokenDialog } from "./dialogs";
 import { byId, h } from "./dom";
 import { Events } from "./events";
 import { Grid } from "./grid";
+import { FilmSource } from "./film";
 import { Playhead } from "./playhead";
+import { Reel, ReelBar } from "./reel";
 import { SocketSource, tokenFromAddress } from "./socket";
 import type { Source } from "./source";
 import { Stage } from "./stage";
@@ -24,22 +26,23 @@ declare global {
 
 class Page {
   private store = new Store();
-  private playhead = new Playhead(this.store);
+  private playhead: Playhead;
   private stage = new Stage();
   private shown: Grid | Detail | null = null;
   private all: Events | null = null;
   private key = "";
   private version = -1;
   private last = 0;
-  private transport: Transport;
+  private transport: { update(now: number): void };
   private bar: Bar;
   private alarm = new Alarm(this.store);
   private banner = new Banner(this.store);
 
   constructor(private source: Source) {
+    this.playhead = source instanceof FilmSource ? new Reel(this.store, source) : new Playhead(this.store);
     const token = new TokenDialog(source);
     this.bar = new Bar(this.store, new PhoneDialog(source), new DownloadDialog(this.store, source), () => this.chosen);
-    this.transport = new Transport(this.store, this.playhead);
+    this.transport = this.playhead instanceof Reel ? new ReelBar(this.playhead) : new Transport(this.store, this.playhead);
     this.store.on(["hello", "devices"], () => this.show());
     this.store.on(["connection"], () => {
       if (this.store.link.state === "refused") token.ask(this.store.link.reason);
@@ -78,7 +81,7 @@ class Page {
       else if (chosen) this.shown = new Detail(this.store, this.playhead, this.stage, this.source, devices.get(chosen)!);
       else this.shown = new Grid(this.store, this.playhead, this.stage);
       if (this.shown) main.replaceChildren(this.shown.element);
-      if (this.shown instanceof Grid) main.append((this.all = new Events(this.store, null)).element);
+      if (this.shown instanceof Grid && this.source.live) main.append((this.all = new Events(this.store, null)).element);
       scrollTo(0, 0);
     }
     this.shown?.sync();
@@ -89,12 +92,16 @@ class Page {
     this.bar.update();
     this.alarm.update();
     this.banner.update();
+    if (this.source instanceof FilmSource && this.playhead instanceof Reel) {
+      for (const id of this.chosen ? [this.chosen] : this.store.devices.keys()) this.source.look(id, this.playhead.range(), this.playhead.speed);
+    }
   }
 
   private frame(now: number): void {
     requestAnimationFrame((next) => this.frame(next));
     if (now - this.last < LEAST_BETWEEN) return;
     this.last = now;
+    if (this.playhead instanceof Reel) this.playhead.advance(now);
     this.shown?.update(now);
     this.all?.update(now);
     this.transport.update(now);
@@ -108,6 +115,7 @@ class Page {
     window.poise = {
       drawn: (id: string, method = 0) => (this.shown instanceof Detail && this.shown.device.id === id ? this.shown.drawn(method) : this.shown instanceof Grid ? this.shown.drawn(id) : null),
       redraws: () => this.stage.redraws,
+      painted: () => this.version,
       store: this.store,
       playhead: this.playhead,
     };
@@ -128,4 +136,4 @@ function empty(): HTMLElement {
 }
 
 tokenFromAddress();
-new Page(new SocketSource());
+new Page(location.search === "?view" ? new FilmSource() : new SocketSource());

@@ -47,7 +47,12 @@ export class Playhead {
     this.changed();
   }
 
-  private changed(): void {
+  /** From when to when plots show. */
+  range(): [number, number] {
+    return [this.time - this.window, this.time];
+  }
+
+  protected changed(): void {
     this.store.version++;
     for (const each of this.told) each();
   }

@@ -46,16 +46,16 @@ export class Plots {
 
   /** Long windows are drawn less often: a pixel of them is many rows. */
   update(now: number): void {
-    const pause = Math.min(500, Math.max(66, (this.playhead.window * 1000) / 600));
+    const range = this.playhead.range();
+    const pause = Math.min(500, Math.max(66, ((range[1] - range[0]) * 1000) / 600));
     if (now - this.drawn < pause || (this.version === this.store.version && !this.playhead.following)) return;
     this.drawn = now;
     this.version = this.store.version;
     const tracks = this.store.tracksOf(this.id).filter((track) => track.ring.length);
     this.build(tracks.map(({ method, colour, running }) => ({ label: method.name + (running ? "" : " (before)"), colour: `--m${colour}`, dashed: !running })));
-    const to = this.playhead.time;
-    const range: [number, number] = [to - this.playhead.window, to];
+    const mark = this.store.instant && this.playhead.time;
     const { stretches, lanes, ...data } = windowed(this.store, tracks, ...range);
-    for (const [name, chart] of Object.entries(this.charts!)) chart.set(data[name as keyof typeof data], range, stretches);
+    for (const [name, chart] of Object.entries(this.charts!)) chart.set(data[name as keyof typeof data], range, stretches, mark);
     this.drawLanes(lanes, range);
   }
 

@@ -31,7 +31,7 @@ export interface Hello {
   flags: Record<string, [string, string]>;
   invalid_flags: number;
   offers: string[];
-  events: LiveEvent[];
+  events?: LiveEvent[];
   recording: Recording | null;
 }
 
@@ -90,6 +90,28 @@ export interface LiveEvent {
   direction?: string;
   tilt_deg?: number | null;
   impact_s?: number | null;
+}
+
+/** A recording of `poise view`, as GET /films tells it; times are stamps, s. */
+export interface FilmInfo {
+  number: number;
+  id: string;
+  source: string;
+  shape: Shape;
+  start: number;
+  end: number;
+  rows: number;
+  rate_hz: number | null;
+  sensors: boolean;
+  methods: (RunningMethod & {
+    reference: boolean;
+    error_deg: { total: number | null; heading: number | null; inclination: number | null } | null;
+    stretches: { flag: string; start: number; end: number; rows: number; text: string }[];
+  })[];
+}
+
+export interface Films extends Pick<Hello, "server" | "flags" | "invalid_flags"> {
+  films: FilmInfo[];
 }
 
 export type Message =

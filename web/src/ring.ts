@@ -29,6 +29,10 @@ export class Ring {
     this.length++;
   }
 
+  clear(): void {
+    this.first = this.length = 0;
+  }
+
   private grow(capacity: number): void {
     const bytes = new Uint8Array(capacity * RECORD);
     const stamps = new Float64Array(capacity);

@@ -17,6 +17,12 @@ export function tokenFromAddress(): void {
   history.replaceState(null, "", location.pathname + location.search);
 }
 
+/** GET of the page's own server, with the token where there is one. */
+export async function serverGet(path: string): Promise<Response> {
+  const token = sessionStorage.getItem(KEY);
+  return fetch(path, { headers: token ? { Authorization: `Bearer ${token}` } : {}, cache: "no-store" });
+}
+
 export class SocketSource implements Source {
   readonly live = true;
   private sink!: Sink;
@@ -38,9 +44,8 @@ export class SocketSource implements Source {
     this.connect();
   }
 
-  async get(path: string): Promise<Response> {
-    const token = sessionStorage.getItem(KEY);
-    return fetch(path, { headers: token ? { Authorization: `Bearer ${token}` } : {}, cache: "no-store" });
+  get(path: string): Promise<Response> {
+    return serverGet(path);
   }
 
   ask(command: Command): Promise<void> {

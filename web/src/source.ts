@@ -14,6 +14,8 @@ export interface Sink {
   /** A binary frame of attitudes, header included. */
   frame(data: ArrayBuffer): void;
   connection(now: Connection): void;
+  /** What is held of a device is no more: other rows of it follow. */
+  cleared(device: string): void;
 }
 
 export interface Source {

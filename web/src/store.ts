@@ -24,6 +24,8 @@ export interface Track {
 type Topic = "hello" | "devices" | "health" | "event" | "connection";
 
 export class Store implements Sink {
+  /** s, the instant that is shown of recordings; null: whatever is newest */
+  instant: (() => number) | null = null;
   hello: Hello | null = null;
   health: Health | null = null;
   readonly devices = new Map<string, DeviceInfo>();
@@ -93,13 +95,17 @@ export class Store implements Sink {
       const track = device?.tracks[head.getUint8(offset + AT.method)];
       if (!device || !track) continue;
       const host = head.getFloat64(offset + 8 * AT.host, true);
-      const at = Math.abs(host - now) < APART ? host : now;
+      const at = this.instant || Math.abs(host - now) < APART ? host : now;
       track.ring.push(bytes, offset, at, most);
       if (at > this.newest) this.newest = at;
       const delay = this.delays.get(device.id);
       this.delays.set(device.id, delay === undefined ? now - at : delay + 0.05 * (now - at - delay));
     }
     this.version++;
+  }
+
+  cleared(device: string): void {
+    for (const { ring } of this.tracks.get(device)?.values() ?? []) ring.clear();
   }
 
   private setDevices(devices: DeviceInfo[]): void {
@@ -157,6 +163,7 @@ export class Store implements Sink {
 
   /** The instant that is shown when time is followed; it stands while there is no connection. */
   edge(): number {
+    if (this.instant) return this.newest;
     return this.link.state === "open" ? this.serverNow() : this.newest || this.serverNow();
   }
 
@@ -209,7 +216,7 @@ export class Store implements Sink {
   tipOf(id: string): number | null {
     const ring = this.mainTrack(id)?.ring;
     if (!ring?.length) return null;
-    const state = ring.tip(ring.length - 1);
+    const state = ring.tip(this.instant ? Math.max(0, ring.find(this.instant())) : ring.length - 1);
     return state < TIP.length ? state : null;
   }
 }

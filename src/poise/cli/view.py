@@ -144,7 +144,7 @@ async def _served(films: list[Film], port: int, opened: bool) -> None:
 
     async def tell() -> None:
         await ready.wait()
-        where = page.address(server.options)
+        where = page.address(server.options) + "?view"
         print(f"poise view on {where}  (Ctrl-C ends it)", flush=True)
         if opened:
             await asyncio.to_thread(page.show_in_browser, where)

@@ -107,7 +107,13 @@ class Film:
         if len(found) > _STRETCHES:
             found = sorted(sorted(found, key=lambda each: each.start - each.end)[:_STRETCHES])
         return [
-            {"flag": each.flag.name, "start": each.start, "end": each.end, "rows": each.samples, "text": each.sentence}
+            {
+                "flag": each.flag.name,
+                "start": each.start,
+                "end": each.end,
+                "rows": each.samples,
+                "text": "the reference is not known here" if strip.name == REFERENCE else each.sentence,
+            }
             for each in found
         ]
 

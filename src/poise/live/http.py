@@ -91,7 +91,7 @@ def application(server: Server) -> App:
         return JSONResponse(hub.find(request.path_params["name"]).described())
 
     async def films(request: Request) -> Response:
-        hello = {key: server.hello()[key] for key in ("server", "flags")}
+        hello = {key: server.hello()[key] for key in ("server", "flags", "invalid_flags")}
         return JSONResponse(hello | {"films": [film.described(k) for k, film in enumerate(server.films)]})
 
     async def film_frame(request: Request) -> Response:
