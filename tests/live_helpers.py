@@ -83,7 +83,7 @@ def serving(
     choices = tuple(Choice.of(name) for name in methods)
     for choice in choices:
         choice.warm()
-    server = Server(Hub(choices, max_rate, watch), sources, Options(port=0, **options), recorder, films)
+    server = Server(Hub(choices, max_rate, watch), sources, Options(**{"port": 0, **options}), recorder, films)
     loops: list[asyncio.AbstractEventLoop] = []
     up = threading.Event()
     failures: list[BaseException] = []

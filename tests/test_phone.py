@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
 import ssl
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -18,12 +17,13 @@ from scipy.spatial.transform import Rotation
 from websockets.sync.client import connect
 
 import poise
+from browsing import chromium, until
 from data_files import data_path
 from live_helpers import METHOD, seen, serving, wait_for
+from poise.live.address import own_addresses
 from poise.live.certificate import own_certificate
 from poise.live.methods import Choice
 
-CHROMIUM = shutil.which("chromium")
 DEVICE = "device-token-of-16"
 READ = "reading-token-of-16"
 TOKENS = {DEVICE: frozenset({"device"}), READ: frozenset({"read"})}
@@ -52,15 +52,8 @@ window.play = async (rows, speed) => {
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    if CHROMIUM is None:
-        pytest.skip("no chromium on the path (Debian: apt-get install chromium)")
-    api = pytest.importorskip("playwright.sync_api")
-    arguments = ["--no-sandbox", "--host-resolver-rules=MAP phone.test 127.0.0.1"]
-    with (
-        api.sync_playwright() as playwright,
-        playwright.chromium.launch(executable_path=CHROMIUM, args=arguments) as browser,
-    ):
-        yield browser
+    with chromium("--host-resolver-rules=MAP phone.test 127.0.0.1") as found:
+        yield found
 
 
 @pytest.fixture(scope="module")
@@ -119,11 +112,6 @@ def begin(page: Any) -> None:
     """Taps Start and waits until the phone is connected."""
     page.click("#start")
     page.wait_for_selector("#state[data-tone=good]")
-
-
-def until(page: Any, expression: str) -> None:
-    """Waits until *expression* holds; the page's policy forbids Playwright's own way of waiting."""
-    wait_for(lambda: page.evaluate(expression))
 
 
 def play(page: Any, rows: list[Any], speed: float = 4.0) -> None:
@@ -193,6 +181,26 @@ def test_cut_connections_lose_nothing(browser: Any, motion: Any) -> None:
     assert health.lost == 0
     axes = [event for event in running.hub.events if event["kind"] == "axes"]
     assert len(axes) == 1  # the page was told them and tells them again
+
+
+def test_a_server_that_was_restarted_is_sent_what_it_does_not_have(browser: Any, motion: Any) -> None:
+    recording, truth = motion
+    rows = events(recording, truth, -1.0, (0, 1, 2))
+    with ExitStack() as first, ExitStack() as second:
+        running = first.enter_context(serving())
+        page = second.enter_context(phone(browser, f"http://{running.address}", token=""))
+        begin(page)
+        play(page, rows[:500])
+        first.close()
+        page.wait_for_selector("#state[data-tone=warn]")
+        play(page, rows[500:600])
+        again = second.enter_context(serving(port=running.server.options.port))
+        page.wait_for_selector("#state[data-tone=good]")
+        play(page, rows[600:800])
+        wait_for(lambda: again.hub.devices["pocket"].next > 790)
+        device = again.hub.devices["pocket"]
+        assert (device.health.samples, device.health.lost, device.shape) == (device.next, 0, "phone")
+        assert not [event for event in again.hub.events if event["kind"] == "axes"]  # the page knew them
 
 
 def test_a_lasting_difference_from_the_browsers_own_orientation_is_an_event(browser: Any, motion: Any) -> None:
@@ -289,3 +297,16 @@ def test_a_wrong_token_and_a_hidden_page_are_told(browser: Any) -> None:
             page.click("#stop")
             assert page.text_content("#state") == "Stopped"
             wait_for(lambda: not running.server.device_sockets)
+
+
+def test_the_dashboard_shows_the_code_to_those_who_may_write(browser: Any) -> None:
+    if not own_addresses():
+        pytest.skip("this machine is in no network")
+    full = "a-token-for-all-of-it"
+    tokens = {DEVICE: frozenset({"device"}), full: frozenset({"read", "write"})}
+    with serving(host="0.0.0.0", tokens=tokens, phone_token=DEVICE) as running, browser.new_context() as context:
+        page = context.new_page()
+        page.goto(f"http://{running.address}/#token={full}")
+        page.click("#phone")
+        page.wait_for_selector("dialog[open] img")
+        until(page, "document.querySelector('dialog[open] img').naturalWidth > 0")

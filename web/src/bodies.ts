@@ -9,9 +9,10 @@ import type { Store, Track } from "./store";
 function poseOf(store: Store, track: Track, time: number, following: boolean): Pose {
   const { ring } = track;
   const k = following ? ring.length - 1 : ring.find(time);
-  if (k < 0) return { quat: [NaN, NaN, NaN, NaN], valid: false, sigmaHeading: NaN, colour: track.colour };
+  if (k < 0) return { quat: [NaN, NaN, NaN, NaN], sequence: -1, valid: false, sigmaHeading: NaN, colour: track.colour };
   return {
     quat: [0, 1, 2, 3].map((c) => ring.value(k, AT.quat + c)) as Pose["quat"],
+    sequence: ring.sequence(k),
     valid: !store.whyInvalid(track, k) || (!following && ring.valid(k)),
     sigmaHeading: ring.value(k, AT.sigma + 2),
     colour: track.colour,

@@ -26,8 +26,10 @@ export interface ChartSpec {
   lines: Line[];
   /** a band around each line: two more series a line, upper and lower */
   bands: boolean;
-  /** a compass: from 0 to 360 once most of it is used */
+  /** a compass: from 0 to 360 once most of it is used, and broken where it passes north */
   compass?: boolean;
+  /** the last of its group, which has the times */
+  foot?: boolean;
 }
 
 const AXIS = 46;
@@ -47,7 +49,7 @@ export class Chart {
     this.values = spec.lines.map(() => h("b"));
     this.element = h(
       "section",
-      { class: "chart", "aria-label": `${spec.title} over time, ${spec.unit}` },
+      { class: spec.foot ? "chart foot" : "chart", "aria-label": `${spec.title} over time, ${spec.unit}` },
       h(
         "header",
         {},
@@ -97,7 +99,7 @@ export class Chart {
   private showValues(): void {
     const hovered = this.plot?.cursor.idx;
     const last = this.data[0].length - 1;
-    const k = hovered ?? (this.mark === null ? last : before(this.data[0] as number[], this.mark));
+    const k = hovered ?? (this.mark === null ? last : atOrBefore(this.data[0] as number[], this.mark));
     const step = this.spec.bands ? 3 : 1;
     this.values.forEach((value, line) => {
       const found = (this.data[1 + line * step] as (number | null | undefined)[])?.[k];
@@ -108,13 +110,14 @@ export class Chart {
   private options(width: number, height: number): uPlot.Options {
     const { spec } = this;
     const [ink, line] = [css("--muted"), css("--line")];
+    const gaps = spec.compass ? { gaps: wraps } : {};
     const series: uPlot.Series[] = [{}];
     const bands: uPlot.Band[] = [];
     for (const each of spec.lines) {
       const colour = css(each.colour);
-      series.push({ stroke: colour, width: 1.5, dash: each.dashed ? [5, 3] : undefined, points: { show: false }, spanGaps: false });
+      series.push({ stroke: colour, width: 1.5, dash: each.dashed ? [5, 3] : undefined, points: { show: false }, spanGaps: false, ...gaps });
       if (!spec.bands) continue;
-      for (let k = 0; k < 2; k++) series.push({ stroke: "transparent", width: 0, points: { show: false } });
+      for (let k = 0; k < 2; k++) series.push({ stroke: "transparent", width: 0, points: { show: false }, ...gaps });
       bands.push({ series: [series.length - 2, series.length - 1], fill: colour + "2e" });
     }
     const grid = { stroke: line, width: 1 };
@@ -131,11 +134,15 @@ export class Chart {
         y: { range: (_, low, high) => span(low, high, spec) },
       },
       axes: [
-        { stroke: ink, grid, ticks: { show: false }, size: 22, font: FONT, values: (plot, splits) => (this.mark === null ? clock(plot, splits) : splits.map((s) => `${Number(s.toFixed(3))} s`)), space: 70 },
-        { stroke: ink, grid, ticks: { show: false }, size: AXIS, gap: 4, font: FONT, space: 26, incrs: spec.compass ? ANGLES : undefined, values: (_, splits) => splits.map((v) => String(Number(v.toPrecision(6))).replace("-", "−")) },
+        { stroke: ink, grid, ticks: { show: false }, size: spec.foot ? 22 : 4, font: FONT, values: (plot, splits) => (spec.foot ? this.times(plot, splits) : []), space: 70 },
+        { stroke: ink, grid, ticks: { show: false }, size: AXIS, gap: 4, font: FONT, space: 22, incrs: spec.unit === "°" ? ANGLES : undefined, values: (_, splits) => splits.map((v) => String(Number(v.toPrecision(6))).replace("-", "−")) },
       ],
       hooks: { drawClear: [(plot) => this.shade(plot)], draw: [(plot) => this.point(plot)], setCursor: [() => this.showValues()] },
     };
+  }
+
+  private times(plot: uPlot, splits: number[]): string[] {
+    return this.mark === null ? clock(plot, splits) : splits.map((s) => `${Number(s.toFixed(3))} s`);
   }
 
   private point(plot: uPlot): void {
@@ -169,7 +176,7 @@ export class Chart {
 }
 
 /** The last of *stamps* at or before *time*. */
-function before(stamps: number[], time: number): number {
+function atOrBefore(stamps: number[], time: number): number {
   let low = 0;
   let high = stamps.length;
   while (low < high) {
@@ -180,11 +187,33 @@ function before(stamps: number[], time: number): number {
   return low - 1;
 }
 
+const CLOCK = new Intl.DateTimeFormat("en-GB", { timeStyle: "medium" });
 const FONT = "11px ui-sans-serif, system-ui, sans-serif";
-const ANGLES = [1, 2, 5, 10, 15, 30, 45, 90];
+const ANGLES = [1, 2, 5, 10, 15, 30, 45, 90, 180];
 
-function clock(_: uPlot, splits: number[]): string[] {
-  return splits.map((s) => new Date(s * 1000).toLocaleTimeString([], { hour12: false }));
+/** Times, but for one that would be cut off at the right. */
+function clock(plot: uPlot, splits: number[]): string[] {
+  const { min, max } = plot.scales.x;
+  const room = (30 / plot.width) * (max! - min!);
+  return splits.map((s) => (s > max! - room ? "" : CLOCK.format(1000 * s)));
+}
+
+/** Gaps where a heading passes north: a null between two points of one pixel would not be seen. */
+function wraps(plot: uPlot, index: number, first: number, last: number, found: uPlot.Series.Gaps): uPlot.Series.Gaps {
+  const stamps = plot.data[0];
+  const values = plot.data[index];
+  let before: number | null | undefined = null;
+  let left = 0;
+  const halo = Math.ceil(1.5 * devicePixelRatio); // the width of the line
+  for (let k = first; k <= last; k++) {
+    const value = values[k];
+    if (value === null || value === undefined) continue;
+    const at = Math.round(plot.valToPos(stamps[k], "x", true));
+    if (before !== null && before !== undefined && Math.abs(value - before) > 180) found.push([left - halo, at + halo]);
+    before = value;
+    left = at;
+  }
+  return found.sort((a, b) => a[0] - b[0]);
 }
 
 function span(low: number | null, high: number | null, { least, compass }: ChartSpec): [number, number] {

@@ -73,15 +73,13 @@ function stampsOf(ring: Ring, [first, end]: [number, number]): number[] {
 function angleColumns(ring: Ring, [first, end]: [number, number], stamps: number[], alone: boolean): Column[] {
   const columns: Column[] = Array.from({ length: 9 }, () => new Array<number | null>(stamps.length).fill(null));
   let row = 0;
-  let before = NaN;
   for (let k = first; k < end; k++) {
     const at = ring.at(k);
     if (alone) row = k - first;
     else while (stamps[row] < at) row++;
     const a = angles(ring, k);
-    const jumped = Math.abs(a.heading - before) > 180 || (k > first && at - ring.at(k - 1) > GAP);
-    before = a.heading;
-    put(columns, 0, row, jumped ? NaN : a.heading, a.sigmaHeading);
+    if (k > first && at - ring.at(k - 1) > GAP) continue; // one row less, so that the line is broken
+    put(columns, 0, row, a.heading, a.sigmaHeading);
     put(columns, 3, row, a.pitch, a.sigmaPitch);
     put(columns, 6, row, a.roll, a.sigmaRoll);
   }

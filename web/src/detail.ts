@@ -12,6 +12,7 @@ import { Plots } from "./plots";
 import { ALARMING } from "./protocol";
 import type { DeviceInfo } from "./protocol";
 import { Readout } from "./readout";
+import type { Drawn } from "./scene";
 import type { Source } from "./source";
 import type { Stage } from "./stage";
 import type { Store } from "./store";
@@ -59,13 +60,12 @@ export class Detail {
     this.plots.destroy();
   }
 
-  drawn(method = 0): [number, number, number, number] | null {
+  drawn(method = 0): Drawn | null {
     return this.view.scene.drawn(method);
   }
 
   sync(): void {
     this.methods.sync();
-    this.events.sync();
     const may = this.store.hello?.may_write !== false;
     this.forward.disabled = !may || !this.source.live;
     if (!may) this.forward.title = "This needs a token with the scope “write”";
@@ -75,10 +75,11 @@ export class Detail {
     const state = this.readout.update(now);
     if (state) {
       this.card.classList.toggle("invalid", state.invalid !== "");
-      this.card.classList.toggle("alarming", state.tip !== null && ALARMING.has(state.tip));
+      this.card.classList.toggle("alarming", state.tip !== null && ALARMING.has(state.tip) && this.store.link.state === "open");
     }
     this.plots.update(now);
     this.link.update(now);
+    this.events.update(now);
   }
 
   private async reset(): Promise<void> {

@@ -6,6 +6,7 @@ import { h, say } from "./dom";
 import type { Playhead } from "./playhead";
 import { ALARMING } from "./protocol";
 import type { DeviceInfo } from "./protocol";
+import type { Drawn } from "./scene";
 import type { Stage } from "./stage";
 import type { Store } from "./store";
 import { STATES, tipWord } from "./words";
@@ -82,7 +83,7 @@ export class Grid {
     return { element, view: new BodyView(this.store, this.playhead, device.id, body, device.shape, false), shape: device.shape, heading, tilt, state };
   }
 
-  drawn(id: string): [number, number, number, number] | null {
+  drawn(id: string): Drawn | null {
     return this.tiles.get(id)?.view.scene.drawn() ?? null;
   }
 

@@ -44,7 +44,6 @@ class Page {
     this.bar = new Bar(this.store, new PhoneDialog(source), new DownloadDialog(this.store, source), () => this.chosen);
     this.transport = this.playhead instanceof Reel ? new ReelBar(this.playhead) : new Transport(this.store, this.playhead);
     this.store.on(["hello", "devices"], () => this.show());
-    this.store.on(["event"], () => this.sync());
     this.store.on(["connection"], () => {
       if (this.store.link.state === "refused") token.ask(this.store.link.reason);
       this.slow();
@@ -85,13 +84,8 @@ class Page {
       if (this.shown instanceof Grid && this.source.live) main.append((this.all = new Events(this.store, null)).element);
       scrollTo(0, 0);
     }
-    this.sync();
-    this.slow();
-  }
-
-  private sync(): void {
     this.shown?.sync();
-    this.all?.sync();
+    this.slow();
   }
 
   private slow(): void {
@@ -109,6 +103,7 @@ class Page {
     this.last = now;
     if (this.playhead instanceof Reel) this.playhead.advance(now);
     this.shown?.update(now);
+    this.all?.update(now);
     this.transport.update(now);
     if (this.version === this.store.version && !this.stage.dirty) return;
     this.version = this.store.version;

@@ -69,10 +69,10 @@ export class Plots {
     this.charts = {
       heading: new Chart({ title: "Heading", least: 10, compass: true, ...angle }, sync),
       pitch: new Chart({ title: "Pitch", least: 10, ...angle }, sync),
-      roll: new Chart({ title: "Roll", least: 10, ...angle }, sync),
+      roll: new Chart({ title: "Roll", least: 10, foot: true, ...angle }, sync),
       gyr: new Chart({ title: "Rate", unit: "rad/s", digits: 2, least: 0.5, lines: XYZ, bands: false }, sync),
       acc: new Chart({ title: "Specific force", unit: "m/s²", digits: 2, least: 2, lines: XYZ, bands: false }, sync),
-      mag: new Chart({ title: "Magnetic field", unit: "µT", digits: 1, least: 10, lines: XYZ, bands: false }, sync),
+      mag: new Chart({ title: "Magnetic field", foot: true, unit: "µT", digits: 1, least: 10, lines: XYZ, bands: false }, sync),
     };
     this.element.replaceChildren(
       ...Object.values(this.charts).slice(0, 3).map((chart) => chart.element),

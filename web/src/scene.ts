@@ -59,7 +59,7 @@ class Paint {
   sign(text: string): THREE.SpriteMaterial {
     let found = this.letters.get(text);
     if (!found) {
-      found = new THREE.SpriteMaterial({ map: letter(text, css(text === "N" ? "--north" : "--muted")), depthWrite: false });
+      found = new THREE.SpriteMaterial({ map: letter(text, css(text === "N" ? "--north" : "--muted")), depthWrite: false, depthTest: false });
       this.letters.set(text, found);
     }
     return found;
@@ -119,6 +119,8 @@ const shared = { rose: rose(), north: northMark() };
 /** One body, as one method has it. */
 class Body {
   readonly group = new THREE.Group();
+  sequence = -1;
+  valid = true;
   private face: THREE.Mesh;
   private edge: THREE.LineSegments;
 
@@ -131,15 +133,24 @@ class Body {
   }
 
   setValid(valid: boolean): void {
+    this.valid = valid;
     const ghost = this.ghost === null ? null : paint.ghost(this.ghost);
     this.face.material = ghost ? ghost.face : valid ? paint.solid : paint.hollow;
     this.edge.material = ghost ? ghost.edge : valid ? paint.edge : paint.hollowEdge;
   }
 }
 
+export interface Drawn {
+  quat: number[];
+  sequence: number;
+  valid: boolean;
+}
+
 export interface Pose {
   /** w x y z; NaN: unknown */
   quat: [number, number, number, number];
+  /** number of the sample; −1: none */
+  sequence: number;
   valid: boolean;
   /** rad; NaN: not known */
   sigmaHeading: number;
@@ -168,7 +179,8 @@ export class Scene {
       if (!rich && text !== "N") continue;
       const sign = new THREE.Sprite(paint.sign(text));
       sign.position.set(x * (RADIUS + 0.3), y * (RADIUS + 0.3), 0);
-      sign.scale.setScalar(rich ? 0.5 : 0.62);
+      sign.scale.setScalar(rich ? 0.44 : 0.62);
+      sign.renderOrder = 3;
       ground.add(sign);
     }
     this.needle = new THREE.Line(new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute([0, 0, 0.01, 0, 0, 0.01], 3)), paint.needle);
@@ -208,6 +220,7 @@ export class Scene {
       const known = pose !== undefined && pose.quat.every(Number.isFinite);
       body.group.visible = known || k === 0;
       if (known) body.group.quaternion.set(pose.quat[1], pose.quat[2], pose.quat[3], pose.quat[0]);
+      body.sequence = pose?.sequence ?? -1;
       body.setValid(known && pose.valid);
     });
     this.point(poses[0]);
@@ -234,20 +247,20 @@ export class Scene {
     fan.needsUpdate = true;
   }
 
-  /** w x y z as drawn. */
-  drawn(k = 0): [number, number, number, number] | null {
+  /** What the scene's objects hold now: the quaternion (w x y z) of a body and the number of its sample. */
+  drawn(k = 0): Drawn | null {
     const body = this.bodies[k];
     if (!body) return null;
     const { x, y, z, w } = body.group.quaternion;
-    return [w, x, y, z];
+    return { quat: [w, x, y, z], sequence: body.sequence, valid: body.valid };
   }
 
   look(aspect: number): void {
-    const distance = 10.6 / Math.min(1, Math.max(0.5, aspect));
+    const distance = 8.4 / Math.min(1, Math.max(0.5, aspect));
     const level = Math.cos(this.elevation);
     this.camera.position.set(Math.sin(this.azimuth) * level, -Math.cos(this.azimuth) * level, Math.sin(this.elevation)).multiplyScalar(distance);
-    this.camera.position.z -= 0.28;
-    this.camera.lookAt(0, 0, -0.28);
+    this.camera.position.z -= 0.5;
+    this.camera.lookAt(0, 0, -0.5);
     this.camera.aspect = aspect;
     this.camera.updateProjectionMatrix();
   }

@@ -57,10 +57,15 @@ def for_phones(options: Options) -> str | None:
 
 
 def show_qr(text: str, out: TextIO) -> None:
-    """Writes the QR code of *text* for a terminal, two rows in a line."""
+    """Writes the QR code of *text* for a terminal, two rows in a line, white on black whatever the terminal's colours are."""
+    import io
+
     import segno
 
-    segno.make(text, error="l", micro=False).terminal(out, compact=True, border=2)
+    drawn = io.StringIO()
+    segno.make(text, error="l", micro=False).terminal(drawn, compact=True, border=2)
+    for line in drawn.getvalue().splitlines():
+        out.write(f"\x1b[97;40m{line}\x1b[0m\n")
 
 
 def svg_qr(text: str) -> bytes:
