@@ -28,14 +28,14 @@ def begun(first: Sample, gravity: float) -> Field:
     if _across(first.acc, first.mag, _LEAST):
         clear = at_rest(first, gravity) and _across(first.acc, first.mag, _CLEAR)
         return Field(0.0, _KNOWN if clear else 0.0)
-    return Field(_LONGEST if present(first.acc) and present(first.mag) else 0.0, 0.0)
+    return Field(_LONGEST if present(first.acc) and _points(first.mag) else 0.0, 0.0)
 
 
 @compiled
-def plainly_across(field: Field, sample: Sample) -> bool:
+def plainly_across(field: Field, acc: Vec3, mag: Vec3) -> bool:
     """Whether a sample says nothing new: it has no field, or one that is, as ever, far from the specific force."""
     settled = field.along == 0.0 and field.across >= _KNOWN
-    return not present(sample.mag) or (settled and _across(sample.acc, sample.mag, _NEAR))
+    return not _points(mag) or (settled and _across(acc, mag, _NEAR))
 
 
 @compiled
@@ -56,6 +56,12 @@ def vertical(field: Field) -> bool:
 def unknown(field: Field) -> bool:
     """Whether it seems to point along gravity, and has not pointed elsewhere for long before: no heading came from it."""
     return field.along > 0.0 and field.across < _KNOWN
+
+
+@compiled
+def _points(mag: Vec3) -> bool:
+    """Whether there is a field: zeros are a sensor that says nothing, not one that points along gravity."""
+    return present(mag) and dot(mag, mag) > 0.0
 
 
 @compiled

@@ -128,12 +128,13 @@ class Guard(NamedTuple):
             astray = _astray(self, astray, clean, output(self.method, inner, clean).attitude)
         lost = astray > self.astray_time
         points = state.field
-        if not plainly_across(points, sample):
+        seen = sample.mag if vertical(points) else clean.mag  # one that is faulty points nowhere
+        if not plainly_across(points, sample.acc, seen):
             up, time = (
                 up_in_body(output(self.method, inner, clean).attitude),
                 min(max(state.mag.every, clean.dt), self.gap),
             )
-            points = looked_at(points, up, sample.mag, time)
+            points = looked_at(points, up, seen, time)
         aligned = state.aligned and not (vertical(points) and unknown(points))
         flags = (LOST if lost else 0) | (0 if aligned and not unknown(points) else HEADING_ARBITRARY)
         if ordinary:
