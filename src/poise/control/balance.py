@@ -49,7 +49,7 @@ class State(NamedTuple):
     left: float  # N m, positive forward
     right: float  # N m
     doing: int  # OFF or BALANCING
-    way: float  # m, how far the axle has rolled
+    way: float  # m, how far the axle has rolled; NaN: not known
     wanted: float  # m, where it was to be by now
     pace: float  # m/s, the wanted speed on its ramp
     speed: float  # m/s, of the axle, smoothed
@@ -135,13 +135,14 @@ class BalanceControl(NamedTuple):
         lean = atan2(-up.y, up.z)
         stands = out.flags & INVALID == 0 and present(out.rate) and known - known == 0.0 and abs(lean) <= self.give_up
         if not stands:
-            return State(0.0, 0.0, OFF, way if way == way else state.way, way if way == way else state.way, 0.0, 0.0)
+            return State(0.0, 0.0, OFF, way, way, 0.0, 0.0)
+        follows = state.way - state.way == 0.0  # else it begins here: a way that was not known has no speed
         speed = state.speed
-        if dt > 0.0:
+        if follows and dt > 0.0:
             speed += dt / (self.smoothing + dt) * ((way - state.way) / dt - speed)
         change, most = drive.speed - state.pace, self.acceleration * dt
         pace = state.pace + min(max(change, -most), most)
-        wanted = min(max(state.wanted + pace * dt, way - self.reach), way + self.reach)
+        wanted = min(max((state.wanted if follows else way) + pace * dt, way - self.reach), way + self.reach)
         both = self.way * (way - wanted) + self.speed * (speed - pace) + self.lean * lean - self.lean_rate * out.rate.x
         turning = self.turn * (drive.turn - out.rate.z)
         left, right = _limited(0.5 * both, turning, self.torque_limit)
@@ -213,14 +214,16 @@ class Balancer:
         if not isinstance(attitude, Attitude) or turned.shape != (2,):
             raise MethodError(f"expected an Attitude and the angles of two wheels, found {attitude!r}, {wheels!r}")
         self._clock[1:3] = turned
-        n = len(attitude.time)
+        given = attitude if attitude.frame == "enu" else attitude.to("enu")
+        n = len(given.time)
         if n == 0:
             return 0.0, 0.0
+        table, time = np.ascontiguousarray(given.table), np.ascontiguousarray(given.time)
         if self._memory is None:
-            self._clock[0] = attitude.time[0]
-            self._memory = begin(self.control, attitude.table[0], int(attitude.flags[0]), self._clock)
+            self._clock[0] = time[0]
+            self._memory = begin(self.control, table[0], int(given.flags[0]), self._clock)
         torques = np.zeros((n, 2))
-        advance(self._memory, attitude.time, attitude.table, attitude.flags, torques)
+        advance(self._memory, time, table, given.flags, torques)
         return float(torques[-1, 0]), float(torques[-1, 1])
 
     @property
