@@ -18,8 +18,10 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 import poise
 from live_helpers import METHOD, Running, ask, heard, made, rows_of, seen, send, serving, wait_for
 from poise.data.event import TipState
+from poise.errors import PoiseError
 from poise.live import frames
 from poise.live.access import Access, AccessError, parsed_tokens
+from poise.live.device import Device
 from poise.live.hub import Hub
 from poise.live.methods import Choice
 from poise.live.replay import Replay
@@ -399,3 +401,32 @@ def test_a_fault_of_ours_ends_the_server_loudly() -> None:
         with live.device("any") as device:
             send(device, rows_of(made(0.5)))
             wait_for(live.server.stopping.is_set)
+
+
+def test_no_flood_before_the_methods_are_loaded_ends_the_server_or_fills_the_memory() -> None:
+    waiting: dict[Device, None] = {}
+    together, apart = Device("together", 0, "", waiting), Device("apart", 1, "", waiting)
+    rows = np.zeros((150_000, 12))
+    rows[:, 0], rows[:, 6] = 0.01 * np.arange(len(rows)), 9.81
+    together.receive(rows, 0.0)
+    assert together.health.lost == 50_000
+    taken = together.take()
+    assert taken.sequence == 50_000 and len(taken.rows) == 100_000
+    for k in range(1500):  # with a gap in the numbers before each
+        apart.receive(rows[100 * k : 100 * k + 100], 0.0, 300 * k)
+    kept = []
+    while apart in waiting:
+        del waiting[apart]
+        kept.append(apart.take())
+    assert sum(len(each.rows) for each in kept) == 100_000
+    assert [each.sequence for each in kept] == list(range(300 * 500, 300 * 1500, 300))
+
+
+def test_stamps_that_are_refused_are_not_kept() -> None:
+    device = Device("arm", 0, "", {})
+    rows = np.zeros((8, 12))
+    for k in range(100):
+        rows[:, 0] = 10.0 * np.arange(8 * k, 8 * k + 8)
+        with pytest.raises(PoiseError):
+            device.receive(rows, 0.0)
+    assert device._stamps is not None and len(device._stamps) <= 16
