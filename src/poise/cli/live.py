@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import secrets
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -27,6 +29,9 @@ def live(
     port: int = 8760,
     token: Annotated[tuple[str, ...], Parameter(negative="")] = (),
     allow_host: Annotated[tuple[str, ...], Parameter(negative="")] = (),
+    https: Annotated[bool, Parameter(negative="")] = False,
+    cert: Path | None = None,
+    key: Path | None = None,
     record: Path | None = None,
     describe: Path | None = None,
     tipover: Path | None = None,
@@ -39,6 +44,7 @@ def live(
     SOURCE is where samples come from; any number of them:
 
     - `ws`: devices connect by themselves and push, to `ws://HOST:PORT/ws/device/NAME`; always on, whatever else is given
+    - `phone`: a QR code to a page that makes a phone a device, without an app; `poise live phone --host 0.0.0.0 --https`
     - `replay:FILE`: a recording as a device, `replay:FILE@10` ten times as fast, `@max` as fast as it can be taken
 
     - `udp::9000`, `udp:127.0.0.1:9000`: datagrams with samples, on all addresses of this machine or one
@@ -68,6 +74,12 @@ def live(
         everything. Repeat for more. The environment's POISE_TOKEN counts, too, and is not seen in a list of processes.
     allow_host
         One more name that this machine goes by.
+    https
+        Serve over HTTPS, with a certificate that this machine makes for itself and keeps; browsers ask whether to trust it.
+    cert
+        A certificate of your own instead, in PEM format; with --key.
+    key
+        Its key.
     record
         A folder to keep samples and attitudes in, as Parquet files, one a device and one a method of it. A device is
         told what is on the disk. After a crash the same command goes on where it was; `poise recover` just saves what is there.
@@ -86,7 +98,8 @@ def live(
             sources or [],
             method,
             set_,
-            (host, port, token, allow_host),
+            (host, port, token, allow_host, "phone" in (sources or [])),
+            (https, cert, key),
             (record, describe, tipover),
             respond,
             max_rate,
@@ -101,7 +114,7 @@ def live(
     from poise.live.serving import run
 
     try:
-        run(_told(server))
+        run(_told(server, "phone" in (sources or [])))
     except (PoiseError, OSError) as error:
         show.problem(error)
         return 1
@@ -113,6 +126,7 @@ def _server(
     names: tuple[str, ...],
     settings: tuple[str, ...],
     where: Any,
+    secure: tuple[bool, Path | None, Path | None],
     files: tuple[Path | None, Path | None, Path | None],
     respond: tuple[str, ...],
     max_rate: float,
@@ -134,6 +148,7 @@ def _server(
     hub = Hub(method_choices(names, settings), max_rate, _watch(tipover, respond))
     try:
         options = _options(*where)
+        options.certificate = _certificate(options, *secure)
         description = Description.read(describe) if describe is not None else None
         found = [source(word, reading.read, description) for word in words]
         recorder = None
@@ -167,29 +182,53 @@ def _watch(tipover: Path | None, respond: tuple[str, ...]) -> Watch | None:
     return Watch(usual, own, responses)
 
 
-def _options(host: str, port: int, tokens: tuple[str, ...], hosts: tuple[str, ...]) -> Options:
-    from poise.live.access import parsed_tokens
+def _options(host: str, port: int, tokens: tuple[str, ...], hosts: tuple[str, ...], phone: bool) -> Options:
+    from poise.live.access import SCOPES, loopback, parsed_tokens
     from poise.live.server import Options
 
     if not 0 <= port <= 65535:
         usage(f"--port {port}: expected 0 to 65535")
     if secret := os.environ.get("POISE_TOKEN"):
         tokens = (*tokens, secret)
-    return Options(host, port, parsed_tokens(tokens), hosts)
+    options = Options(host, port, parsed_tokens(tokens), hosts)
+    if phone and not loopback(host):
+        if not options.tokens:
+            options.made_token = secrets.token_hex(12)
+            options.tokens[options.made_token] = frozenset(SCOPES)
+        own = [token for token, scopes in options.tokens.items() if scopes == {"device"}]
+        options.phone_token = own[0] if own else secrets.token_hex(12)
+        options.tokens[options.phone_token] = frozenset({"device"})
+    return options
 
 
-async def _told(server: Server) -> None:
+def _certificate(options: Options, https: bool, cert: Path | None, key: Path | None) -> tuple[Path, Path] | None:
+    if (cert is None) != (key is None):
+        usage("--cert and --key belong together: a certificate and its key, in PEM format")
+    if cert is None and not https:
+        return None
+    from poise.live import certificate
+
+    if cert is not None and key is not None:
+        return certificate.check(cert, key)
+    options.own_certificate = True
+    return certificate.own_certificate(certificate.names_of(options.host, options.hosts))
+
+
+async def _told(server: Server, phone: bool) -> None:
     """Runs *server* and says where it is and what happens to its devices."""
     import asyncio
+
+    from poise.cli.phone import addresses, tell_phone
 
     server.hub.on_event.append(lambda event: show.note(event["text"]))
     ready = asyncio.Event()
 
     async def tell() -> None:
         await ready.wait()
-        options = server.options
-        name = f"[{options.host}]" if ":" in options.host else options.host
-        print(f"poise live on http://{name}:{options.port}/  (Ctrl-C ends it)", flush=True)
+        for line in addresses(server.options):
+            print(line, flush=True)
+        if phone:
+            tell_phone(server.options, sys.stdout)
 
     telling = asyncio.create_task(tell())
     try:

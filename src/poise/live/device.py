@@ -63,7 +63,7 @@ class Health:
         """A tick had samples of it."""
         interval = now - self._ticked
         if self._ticked and interval < 1.0:
-            self._interval += 0.05 * (interval - self._interval)
+            self._interval += (0.05 if self._interval else 1.0) * (interval - self._interval)
             self.silence = max(_SILENCE, 3.0 * self._interval)
         self._ticked = now
         if not self._counted or now - self._counted[-1][0] > 0.1:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 from collections.abc import AsyncIterator, MutableMapping
 from math import degrees, isfinite
@@ -12,6 +13,8 @@ import numpy as np
 from poise.data.attitude import Attitude
 from poise.errors import PoiseError
 from poise.live.access import App, Receive, Scope, Send
+from poise.live.address import for_phones, svg_qr
+from poise.live.certificate import public_part
 from poise.live.hub import HubError
 from poise.live.metrics import metrics
 from poise.live.sockets import DeviceSocket, Viewer, accept
@@ -30,6 +33,7 @@ PUT  /devices/NAME/methods         change what a device runs
 POST /devices/NAME/heading         "this way is forward"
 GET  /methods                      methods and their parameters
 GET  /events                       what happens, as server-sent events
+GET  /phone                        a page that makes a phone a device
 GET  /healthz, /metrics            health, for people and for Prometheus
 WS   /ws/view                      attitudes as they come
 WS   /ws/device/NAME               samples in
@@ -42,7 +46,9 @@ def needed(method: str, path: str) -> Scope | None:
         return "device"
     if path == "/healthz":
         return None
-    if path.startswith(("/devices", "/methods", "/events", "/metrics", "/ws/view", "/recordings")):
+    if path == "/phone/qr.svg":
+        return "write"  # it holds a token that devices push with
+    if path.startswith(("/devices", "/methods", "/events", "/metrics", "/ws/view", "/recordings", "/films")):
         return "read" if method in ("GET", "HEAD") else "write"
     return None  # the page itself holds no data
 
@@ -50,11 +56,11 @@ def needed(method: str, path: str) -> Scope | None:
 def application(server: Server) -> App:
     """The application, without the gate before it."""
     from starlette.applications import Starlette
-    from starlette.responses import JSONResponse, PlainTextResponse, StreamingResponse
+    from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response, StreamingResponse
     from starlette.routing import Mount, Route, WebSocketRoute
     from starlette.staticfiles import StaticFiles
 
-    from poise.live.server import DASHBOARD
+    from poise.live.server import DASHBOARD, PHONE
 
     hub = server.hub
 
@@ -84,6 +90,23 @@ def application(server: Server) -> App:
         server.change(kind, asked | {"device": request.path_params["name"]})
         return JSONResponse(hub.find(request.path_params["name"]).described())
 
+    async def films(request: Request) -> Response:
+        hello = {key: server.hello()[key] for key in ("server", "flags", "invalid_flags")}
+        return JSONResponse(hello | {"films": [film.described(k) for k, film in enumerate(server.films)]})
+
+    async def film_frame(request: Request) -> Response:
+        number, asked = request.path_params["number"], request.query_params
+        if not 0 <= number < len(server.films):
+            return JSONResponse({"error": f"no film {number}; there are {len(server.films)}"}, 404)
+        film = server.films[number]
+        usual = {"start": film.start, "end": film.end, "most": 4000.0}
+        try:
+            start, end, most = (float(asked.get(name, value)) for name, value in usual.items())
+        except ValueError as problem:
+            raise HubError(f"start, end and most are numbers: {problem}") from None
+        frame = await asyncio.to_thread(film.frame, number, start, end, most)
+        return Response(frame, media_type="application/octet-stream", headers={"cache-control": "no-store"})
+
     async def events(request: Request) -> Response:
         after = request.headers.get("last-event-id") or request.query_params.get("after") or "0"
 
@@ -104,6 +127,20 @@ def application(server: Server) -> App:
     async def prometheus(request: Request) -> Response:
         return PlainTextResponse(metrics(server), media_type="text/plain; version=0.0.4; charset=utf-8")
 
+    async def phone(request: Request) -> Response:
+        return FileResponse(PHONE / "index.html", headers={"cache-control": "no-cache"})
+
+    async def qr(request: Request) -> Response:
+        link = for_phones(server.options)
+        if link is None:
+            return JSONResponse({"error": "no phone can get here: `poise live phone --host 0.0.0.0 --https`"}, 404)
+        return Response(svg_qr(link), media_type="image/svg+xml", headers={"cache-control": "no-store"})
+
+    async def own_certificate(request: Request) -> Response:
+        if server.options.certificate is None:
+            return JSONResponse({"error": "this server has no certificate: it was started without --https"}, 404)
+        return Response(public_part(server.options.certificate[0]), media_type="application/x-x509-ca-cert")
+
     async def no_page(request: Request) -> Response:
         return PlainTextResponse(_NO_PAGE)
 
@@ -119,15 +156,22 @@ def application(server: Server) -> App:
             Route("/devices/{name}/methods", change, methods=["PUT"]),
             Route("/devices/{name}/heading", change, methods=["POST"]),
             Route("/methods", methods),
+            Route("/films", films),
+            Route("/films/{number:int}/frame", film_frame),
             Route("/events", events),
             Route("/healthz", healthz),
             Route("/metrics", prometheus),
+            Route("/phone", phone),
+            Route("/phone/qr.svg", qr),
+            Route("/phone/certificate.crt", own_certificate),
+            Mount("/phone", StaticFiles(directory=PHONE)),
             WebSocketRoute("/ws/view", _View(server)),
             WebSocketRoute("/ws/device/{name}", _Push(server)),
             page,
         ],
         exception_handlers={PoiseError: refused, ValueError: refused},
     )
+    server.offers = sorted({"/phone", "/recordings"} & {getattr(route, "path", "") for route in app.routes})
     return app  # type: ignore[no-any-return]
 
 
@@ -150,7 +194,7 @@ class _Push:
     async def __call__(self, scope: MutableMapping[str, Any], receive: Receive, send: Send) -> None:
         await receive()
         try:
-            socket = DeviceSocket(self._server, scope["path_params"]["name"], send)
+            socket = DeviceSocket(self._server, scope["path_params"]["name"], send, scope.get("query_string", b""))
         except PoiseError as problem:
             await send({"type": "websocket.http.response.start", "status": 400, "headers": []})
             await send({"type": "websocket.http.response.body", "body": f"{problem}\n".encode()})

@@ -74,6 +74,11 @@ class Hub:
             self.event("device", found, f"device {name} from {source or 'somewhere'}")
         return found
 
+    def reshape(self, device: Device, shape: Shape) -> None:
+        """*device* looks different from what was thought: it was known from a recording, or says so only now."""
+        device.shape = shape
+        self._changed()
+
     def restored(self, name: str) -> Device:
         """The device *name* of a recording that goes on; it runs nothing until :meth:`restore`."""
         found = self.devices[name] = Device(name, len(self.devices), "recording", self._waiting)

@@ -15,7 +15,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from poise.data.flags import SENTENCES, Flag
+from poise.data.flags import INVALID, SENTENCES, Flag
 from poise.errors import PoiseError
 from poise.live import frames, http
 from poise.live.access import Access, Gate
@@ -29,9 +29,11 @@ if TYPE_CHECKING:
     from poise.live.batch import Batch
     from poise.live.device import Device
     from poise.live.devices import Source
+    from poise.live.film import Film
     from poise.live.recorder import Recorder
 
 DASHBOARD = Path(__file__).parent / "dashboard"
+PHONE = Path(__file__).parent / "phone"
 _HEALTH_EVERY = 1.0  # s
 _FLAGS_EVERY = 0.25  # s that a flag stays in `flags_since`, so that every viewer sees it
 _BACKLOG = 8192
@@ -56,19 +58,34 @@ class Options:
     hosts: tuple[str, ...] = ()
     certificate: tuple[Path, Path] | None = None
     """certificate and key, for HTTPS"""
+    phone_token: str = ""
+    """what a phone's page shows; given to whoever may write"""
+    made_token: str = ""
+    """a token that was made up at the start, which nobody knows yet"""
+    own_certificate: bool = False
+    """whether this machine made its certificate itself"""
 
 
 class Server:
     """A hub, its sources, its recorder and whoever is connected, in one event loop."""
 
     def __init__(
-        self, hub: Hub, sources: Sequence[Source] = (), options: Options | None = None, recorder: Recorder | None = None
+        self,
+        hub: Hub,
+        sources: Sequence[Source] = (),
+        options: Options | None = None,
+        recorder: Recorder | None = None,
+        films: Sequence[Film] = (),
     ) -> None:
         self.hub, self.sources, self.options, self.recorder = hub, sources, options or Options(), recorder
+        self.films = tuple(films)
+        """recordings for pages to play"""
         self.viewers: dict[Viewer, None] = {}
         self.device_sockets: dict[DeviceSocket, None] = {}
         self.listeners: set[asyncio.Queue[dict[str, Any]]] = set()
         self.access = Access(self.options.host, self.options.tokens, self.options.hosts)
+        self.offers: list[str] = []
+        """which of the pages that not every server has this one has"""
         self.app = Gate(http.application(self), self.access, http.needed)
         self.stopping = asyncio.Event()
         self.began = time.monotonic()
@@ -137,6 +154,7 @@ class Server:
     async def _ticking(self) -> None:
         due, forget, listed = 0.0, 0.0, 0.0
         slices: list[list[Device]] = []
+        headings: list[str] = []
         while True:
             self.hub.tick()
             now = time.monotonic()
@@ -153,6 +171,8 @@ class Server:
             if now > due:
                 due, devices = now + _HEALTH_EVERY, list(self.hub.devices.values())
                 slices = [devices[k : k + _SLICE] for k in range(0, max(len(devices), 1), _SLICE)]
+                before, headings = headings, [r.stream.heading_reference for d in devices for r in d.runs]
+                self._changed |= headings != before  # a magnetometer has spoken: zero means something else now
             if slices:
                 self._say(partial(self.health, slices.pop()))
             await asyncio.sleep(self.hub.pause)
@@ -263,7 +283,10 @@ class Server:
             "may_write": may_write,
             "methods": described(),
             "flags": {f.bit_length() - 1: [f.name, SENTENCES[f]] for f in Flag},
+            "invalid_flags": INVALID,
+            "offers": self.offers,
             "recording": self.recorder.condition() if self.recorder else None,
+            "films": len(self.films),
         }
 
     def device_list(self) -> dict[str, Any]:

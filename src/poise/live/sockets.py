@@ -16,6 +16,7 @@ from poise.errors import PoiseError
 from poise.live import frames, texts
 from poise.live.hub import HubError
 from poise.live.methods import Choice
+from poise.live.motion import Motion, asked
 
 if TYPE_CHECKING:
     from poise.live.access import Receive, Send
@@ -25,15 +26,22 @@ if TYPE_CHECKING:
 _MOST_ERRORS = 10
 _EVERY_FRAMES, _EVERY_BYTES = 512, 8 << 20  # that may wait for a viewer of every sample
 _POLICY, _TRY_LATER = 1008, 1013  # close codes
+_RAW_MOTION = bytes((frames.MOTION,))
+_NOTE_EVERY = 0.5  # s between notes of one device
 _BURST = 1.0  # s of samples at the highest rate that may come at once
 
 
 class DeviceSocket:
     """One connection of a device: ``/ws/device/NAME``."""
 
-    def __init__(self, server: Server, name: str, send: Send) -> None:
+    def __init__(self, server: Server, name: str, send: Send, query: bytes = b"") -> None:
         self._server, self._send, self._errors = server, send, 0
-        self.device = server.hub.device(name, "websocket")
+        shape, axes = asked(query)
+        self.device = server.hub.device(name, "websocket", shape or "board")
+        if shape not in (None, self.device.shape):
+            server.hub.reshape(self.device, shape)
+        self._motion = Motion(self.device, axes, self._event)
+        self._noted = 0.0
         self._allowance, self._filled = _BURST * server.hub.max_rate, time.monotonic()
         self._lock = asyncio.Lock()
         self._news: dict[str, dict[str, Any]] = {}
@@ -52,7 +60,7 @@ class DeviceSocket:
                 now = time.monotonic()
                 try:
                     data = message.get("bytes")
-                    new = device.receive_frame(data, now) if data is not None else self._text(message["text"], now)
+                    new = self._bytes(data, now) if data is not None else self._text(message["text"], now)
                 except PoiseError as problem:
                     device.health.rejected += 1
                     self._errors += 1
@@ -67,9 +75,25 @@ class DeviceSocket:
             device.connected -= 1
             del self._server.device_sockets[self]
 
+    def _bytes(self, data: bytes, now: float) -> int:
+        if data[1:2] != _RAW_MOTION:
+            return self.device.receive_frame(data, now)
+        new = self._motion.take(data, now)
+        for answer in self._motion.answers(self._server.hub.newest):
+            self.note(**answer)
+        return new
+
     def _text(self, text: str, now: float) -> int:
+        if (note := texts.note(text)) is not None:
+            if now - self._noted > _NOTE_EVERY:
+                self._noted = now
+                self._event("note", f"{self.device.name}: {note}")
+            return 0
         rows, sequence = texts.from_json(text)
         return self.device.receive(rows, now, sequence)
+
+    def _event(self, kind: str, text: str) -> None:
+        self._server.hub.event(kind, self.device, text)
 
     async def _too_fast(self, now: float) -> bool:
         """Whether the device sends faster than allowed, for longer than a burst; then its connection is closed."""

@@ -14,17 +14,17 @@ if TYPE_CHECKING:
     from poise.data.recording import Recording
     from poise.live.described import Description
 
-WORDS = "ws, replay:FILE[@SPEED], udp:[HOST]:PORT, serial:PORT, mqtt://HOST[:PORT]/[TOPIC]"
+WORDS = "ws, phone, replay:FILE[@SPEED], udp:[HOST]:PORT, serial:PORT, mqtt://HOST[:PORT]/[TOPIC]"
 
 
 def source(word: str, read: Callable[[Path], Recording], description: Description | None = None) -> Source | None:
-    """The source that *word* names; None for ``ws``, devices that connect by themselves.
+    """The source that *word* names; None for ``ws`` and ``phone``, devices that connect by themselves.
 
     *description* is what the bytes of a serial port, datagrams and messages mean. Raises :class:`DeviceError` for a word that
     names none.
     """
     kind, _, rest = word.partition(":")
-    if word == "ws":
+    if word in ("ws", "phone"):
         return None
     if kind == "replay" and rest:
         from poise.live.replay import Replay
