@@ -79,10 +79,12 @@ def application(server: Server) -> App:
 
     async def change(request: Request) -> Response:
         kind = "methods" if request.method == "PUT" else "reset_heading"
-        body = await request.body() or b"{}"
-        if len(body) > 65536:
-            raise HubError("more than 64 KiB")
-        asked = json.loads(body)
+        body = b""
+        async for piece in request.stream():
+            body += piece
+            if len(body) > 65536:
+                raise HubError("more than 64 KiB")
+        asked = json.loads(body or b"{}")
         if kind == "methods" and isinstance(asked, list):
             asked = {"methods": asked}
         if not isinstance(asked, dict):
@@ -112,7 +114,7 @@ def application(server: Server) -> App:
 
         async def lines() -> AsyncIterator[str]:
             yield ": poise\n\n"
-            async for event in server.events(int(after) if after.isdecimal() else 0):
+            async for event in server.events(int(after) if after.isdecimal() and len(after) < 20 else 0):
                 yield f"id: {event['number']}\nevent: {event['kind']}\ndata: {json.dumps(event)}\n\n"
 
         return StreamingResponse(lines(), media_type="text/event-stream", headers={"cache-control": "no-store"})
@@ -169,7 +171,7 @@ def application(server: Server) -> App:
             WebSocketRoute("/ws/device/{name}", _Push(server)),
             page,
         ],
-        exception_handlers={PoiseError: refused, ValueError: refused},
+        exception_handlers={PoiseError: refused, ValueError: refused, RecursionError: refused},
     )
     server.offers = sorted({"/phone", "/recordings"} & {getattr(route, "path", "") for route in app.routes})
     return app  # type: ignore[no-any-return]
