@@ -350,3 +350,11 @@ def test_a_name_that_cannot_be_stops_nobody(sender: socket.socket) -> None:
         same_end(live, "fine", RECORDING)
         assert set(live.hub.devices) == {"fine"}
         assert live.server.refused == 1
+
+
+def test_made_up_addresses_do_not_fill_the_memory() -> None:
+    listening = Udp("127.0.0.1", 0)
+    for k in range(30_000):
+        listening._decoded([(b"nothing", (f"10.0.{k // 256}.{k % 256}", 9000))])
+    assert listening.rejected == 30_000
+    assert max(len(listening._owner), len(listening._decoders)) <= 10_000
