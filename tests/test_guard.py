@@ -434,3 +434,15 @@ def test_a_loss_ends_with_a_slow_accelerometer_and_a_lossy_gyroscope_too(every: 
         assert not attitude.valid[2200:3000].any()
         assert attitude.valid[3400:].all()
         assert np.degrees(poise.evaluate(attitude, faulty).total[-1000:].max()) < 8.0
+
+
+def test_iron_under_foot_leaves_the_heading_to_the_gyroscope() -> None:
+    """A field that stands upright for a while, in the midst of a recording, takes no heading with it."""
+    still = measure(at_rest(duration=20.0), PERFECT, seed=1)
+    over = (still.time > 8.0) & (still.time < 13.0)
+    iron = np.where(over[:, None], still.acc * -6.0, still.mag) + np.array([0.5, 0.0, 0.0])
+    attitude = poise.estimate(METHOD, still.with_samples(mag=iron))
+    assert not flagged(attitude, Flag.HEADING_ARBITRARY).size and not flagged(attitude, Flag.RESET).size
+    missing = attitude.time[flagged(attitude, Flag.MAG_MISSING)]
+    assert 8.0 < missing.min() < 10.0 and 13.0 < missing.max() < 14.5
+    assert np.degrees(poise.evaluate(attitude, still).heading).max() < 10.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import wave
 from importlib.util import find_spec
 from math import degrees, radians
 from pathlib import Path
@@ -15,6 +16,8 @@ from poise.data.attitude import Attitude
 from poise.data.flags import Flag
 from poise.errors import MethodError
 from poise.loops import Push, balancing, slewing
+from poise.loops.driving import driven
+from programs import program
 
 # not importorskip: importing MuJoCo here would be too early for the choice of a renderer
 pytestmark = pytest.mark.skipif(not (find_spec("mujoco") and find_spec("gpiozero")), reason="needs poise[sim,respond]")
@@ -61,6 +64,46 @@ def test_without_a_valid_attitude_the_wheels_have_no_torque() -> None:
         assert (torques == (0.0, 0.0)) == bool(flag) and (flag or min(torques) > 0.0)
 
 
+def test_a_wheel_that_spins_in_the_air_is_not_taken_for_a_speed() -> None:
+    """An airborne wheel at 600 rad/s² for 60 ms; then the robot drives off on both, turning."""
+    balancer, wheels = Balancer(BalanceControl.design(1.5, 0.12, 0.05, torque_limit=0.45)), np.zeros(2)
+    speeds, torques = [], []
+
+    def advance(left: float, right: float, yaw: float = 0.0) -> None:
+        wheels[:] += 0.005 * np.array([left, right])
+        row = Attitude.of([0.005 * len(speeds)], [[1.0, 0.0, 0.0, 0.0]])
+        row.rate[:] = 0.0, 0.0, yaw
+        torques.append(balancer.update(row, wheels))
+        assert balancer.state is not None
+        speeds.append(balancer.state.speed)
+
+    for i in range(12):
+        advance(0.0, 600.0 * 0.005 * (i + 1))
+    assert max(speeds) < 0.1 and torques[-1][1] < -0.05, "it is braked"
+    assert abs(torques[-1][0]) < 0.1, "and the other does not follow it"
+    for _ in range(60):
+        advance(6.0 - 2.0, 6.0 + 2.0, yaw=2.0 * 0.05 / 0.1)
+    assert speeds[-1] == pytest.approx(0.3, abs=0.01)
+
+
+def test_over_bumps_it_goes_on_and_nothing_is_triggered() -> None:
+    done = driven("two-stage", 104, 20.0)
+    assert not done.fell and not done.triggered
+    assert degrees(np.abs(done["lean"]).max()) < 10.0
+
+
+def test_a_short_loss_is_bridged_by_the_rate_and_a_long_one_is_not() -> None:
+    balancer, doing = Balancer(BalanceControl.design(1.5, 0.12, 0.05, bridge=0.5)), []
+    for i in range(300):
+        row = Attitude.of([0.005 * i], [[np.cos(0.05), -np.sin(0.05), 0.0, 0.0]])
+        row.rate[:], row.flags[:] = (-0.1, 0.0, 0.0), int(Flag.UNSETTLED) if i >= 100 else 0
+        doing.append(balancer.update(row, (0.0, 0.0)) != (0.0, 0.0))
+        if i == 199:
+            assert balancer.state is not None
+            assert balancer.state.lean == pytest.approx(0.1 + 0.1 * 0.5, abs=2e-3)
+    assert all(doing[:200]) and not any(doing[202:])
+
+
 @pytest.mark.parametrize("field", ["body_mass", "height", "wheel_radius"])
 def test_a_bad_robot_is_named(field: str) -> None:
     given = {"body_mass": 1.5, "height": 0.12, "wheel_radius": 0.05, field: -1.0}
@@ -76,6 +119,21 @@ def test_the_command_tells_the_fall_and_draws_it(tmp_path: Path, capsys: pytest.
         pytest.skip("no OpenGL without a screen here")
     assert code == 0 and picture.stat().st_size > 10_000
     assert "relay: motors cut" in said.out and "after the edge" in said.out
+
+
+def test_the_command_speaks_the_alarm_into_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    program("espeak-ng")
+    path = tmp_path / "alarm.wav"
+    assert run(["balance", "--push", "32", "--every", "4", "--duration", "8", "--say", str(path)]) == 0, (
+        capsys.readouterr()
+    )
+    assert "relay: motors cut" in capsys.readouterr().out
+    with wave.open(str(path)) as file:
+        sound = np.frombuffer(file.readframes(file.getnframes()), np.int16)
+        assert file.getnframes() > 0.3 * file.getframerate() and np.abs(sound.astype(int)).max() > 1000
+    assert run(["balance", "--duration", "2", "--say", str(tmp_path / "nowhere" / "alarm.wav")]) == 1
+    assert len(capsys.readouterr().err.splitlines()) == 1
+    assert [each.name for each in tmp_path.iterdir()] == ["alarm.wav"]
 
 
 def test_the_command_names_what_it_cannot_do(capsys: pytest.CaptureFixture[str]) -> None:

@@ -17,6 +17,8 @@ from poise.estimators.engine import Stream
 from poise.live.batch import Batch, Newest, Span
 from poise.live.device import Device, Running
 from poise.live.devices import Shape
+from poise.live.joint import Joint
+from poise.live.joints import Joints
 from poise.live.methods import Choice, startable, warmed
 from poise.live.waits import Waits
 from poise.live.watching import Watch, as_facts, as_text
@@ -44,6 +46,8 @@ class Hub:
         self.max_rate = max_rate
         self.devices: dict[str, Device] = {}
         self.newest = Newest()
+        self.joints = Joints(self.devices, self.newest)
+        self._numbers = 0  # of devices and joints, none given twice
         self.events: deque[dict[str, Any]] = deque(maxlen=_EVENTS)
         self.on_batch: list[Callable[[Batch], None]] = []
         """called with every tick's samples and attitudes: the recorder, viewers of every sample"""
@@ -66,11 +70,12 @@ class Hub:
         """The device *name*, made at its first mention. Raises :class:`HubError` for a name that cannot be, or one too many."""
         found = self.devices.get(name)
         if found is None:
-            if not _can_name_a_file(name):
-                raise HubError(f"device {name[:80]!r}: expected 1 to 64 letters, digits, - _ . or :")
+            _check_name("device", name)
+            if name in self.joints.all:
+                raise HubError(f"device {name!r}: there is a joint of that name")
             if len(self.devices) >= MOST_DEVICES:
                 raise HubError(f"device {name!r}: there are {MOST_DEVICES} already")
-            found = self.devices[name] = Device(name, len(self.devices), source, self._waiting, shape)
+            found = self.devices[name] = Device(name, self._number(), source, self._waiting, shape)
             self.set_methods(found, self.methods)
             self.event("device", found, f"device {name} from {source or 'somewhere'}")
         return found
@@ -82,7 +87,7 @@ class Hub:
 
     def restored(self, name: str) -> Device:
         """The device *name* of a recording that goes on; it runs nothing until :meth:`restore`."""
-        found = self.devices[name] = Device(name, len(self.devices), "recording", self._waiting)
+        found = self.devices[name] = Device(name, self._number(), "recording", self._waiting)
         self._to_restore.append(found)
         return found
 
@@ -99,6 +104,33 @@ class Hub:
         if not rebuilt:
             self.set_methods(device, self.methods)
         self._changed()
+
+    def _number(self) -> int:
+        self._numbers += 1
+        return self._numbers - 1
+
+    def set_joint(self, name: str, segment: str, base: str) -> None:
+        """From now on the joint *name* says how the device *segment* stands seen from *base*; they may come later.
+
+        Raises :class:`HubError` or :class:`JointError` for one that cannot be.
+        """
+        for kind, each in (("joint", name), ("segment", segment), ("base", base)):
+            _check_name(kind, each)
+        self.joints.check(name, segment, base)
+        self.joints.add(name, self._number(), segment, base)
+        self.event("joint", None, f"joint {name}: {segment} seen from {base}")
+        self._changed()
+
+    def remove_joint(self, name: str) -> None:
+        """Raises :class:`JointError` where there is none."""
+        self.joints.remove(name)
+        self.event("joint", None, f"joint {name} is no more")
+        self._changed()
+
+    @property
+    def shown(self) -> list[Device | Joint]:
+        """All that viewers are shown: devices and the joints between them."""
+        return [*self.devices.values(), *self.joints.all.values()]
 
     def find(self, name: str) -> Device:
         """The device *name*; raises :class:`HubError` where there is none."""
@@ -202,6 +234,7 @@ class Hub:
         if self.watch is not None:
             self._judge(batch)
         self.newest.put(batch)
+        self.joints.advance(batch, now)
         for told in self.on_batch:
             told(batch)
         self.waits.add(now - oldest + time.perf_counter() - began)
@@ -258,6 +291,7 @@ class Hub:
                     latest = run.stream.latest
                     if latest is not None:
                         self.newest.unknown(run.slot, run.stream.check(float(latest.time[0]) + since), device.tip)
+                self.joints.silent(device)
                 self.event("silent", device, f"{device.name} is silent: its attitude is unknown")
 
     def event(self, kind: str, device: Device | None, text: str, **facts: Any) -> None:
@@ -273,8 +307,10 @@ class Hub:
         for told in self.on_change:
             told()
 
-    def latest(self, device: Device, method: str | None = None) -> Any:
+    def latest(self, device: Device | Joint, method: str | None = None) -> Any:
         """The newest record of *device* by *method* (its first one unless told); None before the first sample."""
+        if isinstance(device, Joint):
+            return self.newest.records[device.slot] if self.newest.versions[device.slot] else None
         for run in device.runs:
             if method in (None, run.choice.name):
                 record = self.newest.records[run.slot]
@@ -284,12 +320,8 @@ class Hub:
         )
 
 
-def _can_name_a_file(name: str) -> bool:
-    """Whether a device may be called so: its name is that of files, beside `NAME.METHOD.attitude.parquet` of others."""
-    return (
-        0 < len(name) <= 64
-        and all(c.isalnum() or c in "-_.:" for c in name)
-        and len(name.encode()) <= _NAME_BYTES
-        and not name.startswith(".")
-        and not name.endswith(".attitude")
-    )
+def _check_name(kind: str, name: str) -> None:
+    """Refuses a name that cannot be that of files, beside the `NAME.METHOD.attitude.parquet` of others."""
+    letters = 0 < len(name) <= 64 and all(c.isalnum() or c in "-_.:" for c in name)
+    if not letters or len(name.encode()) > _NAME_BYTES or name.startswith(".") or name.endswith(".attitude"):
+        raise HubError(f"{kind} {name[:80]!r}: expected 1 to 64 letters, digits, - _ . or :")

@@ -22,6 +22,7 @@ from poise.data.flags import (
     UNSETTLED,
 )
 from poise.data.packet import Sample
+from poise.estimators.guard.field import vertical
 from poise.estimators.guard.levelling import REST_RATE
 from poise.estimators.guard.samples import (
     CLIPPED,
@@ -83,6 +84,7 @@ def common(guard: Guard, state: State, sample: Sample) -> bool:
     by_mag = change(mag, sample.mag)
     if by_mag - by_mag == 0.0:
         field = usual(mag, sample.mag, by_mag, mag_limits(guard, mag.value)) and state.aligned and state.mag_seen
+        field = field and not vertical(state.field)
     else:  # a large enough number may overflow in the square: that is for a closer look
         silent = state.mag_absent + sample.dt > max(guard.mag_loss, 3.0 * mag.every)
         field = not present(sample.mag) and not (silent and state.mag_seen)
@@ -146,9 +148,10 @@ def examined(guard: Guard, state: State, sample: Sample) -> Look:
     spiked = state.mag_seen and jumped(mag, by_mag, mag_age, usual_step, of_mag)
     if not state.mag_seen and mag.most == 0.0 and present(sample.mag):
         mag, of_mag = fresh(sample.mag, mag_limits(guard, sample.mag)), mag_limits(guard, sample.mag)
-    found = judged(mag, sample.mag, mag_age, spiked, turning, still, guard.stuck_time, of_mag)
+    since = min(mag_age, max(mag.every, dt)) if vertical(state.field) else mag_age  # left out, but there
+    found = judged(mag, sample.mag, since, spiked, turning, still, guard.stuck_time, of_mag)
     mag, mag_verdict = found.channel, found.verdict
-    has_mag = present(found.value) and mag_verdict != CLIPPED
+    has_mag = present(found.value) and mag_verdict != CLIPPED and not vertical(state.field)
     flags |= _told(gyr_verdict, GYR_IGNORED, STUCK_GYR, GYR_CLIPPED)
     flags |= _told(acc_verdict, ACC_IGNORED, STUCK_ACC, ACC_CLIPPED)
     if guard.follows_mag:
