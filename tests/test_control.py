@@ -20,6 +20,7 @@ import poise
 from helpers import angle_between, random_quats
 from poise.control import AttitudeControl, Controller, Slew, Target, lqr
 from poise.control.attitude import checked
+from poise.control.balance import BalanceControl, Balancer
 from poise.control.target import NO_ATTITUDE
 from poise.data.attitude import Attitude
 from poise.data.flags import Flag
@@ -473,3 +474,38 @@ def test_targets_row_by_row_and_the_last_one_holds() -> None:
         alone = one_torque(checked(PD), attitude[i : i + 1], targets[min(i, 2)])
         np.testing.assert_allclose(torques[i], alone, atol=1e-9)
     assert len(controller.update(attitude[:0])) == 0
+
+
+def standing(i: int, lean: float = 0.0, quat: object = None) -> Attitude:
+    """The *i*-th row, at 200 Hz, of a robot that leans forward and does not turn."""
+    known = [np.cos(lean / 2), -np.sin(lean / 2), 0.0, 0.0]
+    row = Attitude.of([0.005 * i], [known if quat is None else quat])
+    row.rate[:] = 0.0
+    return row
+
+
+@pytest.mark.parametrize("first", ["wheels", "attitude"])
+def test_wheels_are_driven_by_numbers_though_the_first_row_had_none(first: str) -> None:
+    balancer = Balancer(BalanceControl.design(1.5, 0.12, 0.05))
+    nan = [np.nan] * 4
+    row, wheels = (standing(0), nan[:2]) if first == "wheels" else (standing(0, quat=nan), [0.0, 0.0])
+    assert balancer.update(row, wheels) == (0.0, 0.0)
+    torques = [balancer.update(standing(i, 0.05), (0.0, 0.0)) for i in (1, 2)]
+    assert min(min(pair) for pair in torques) > 0.0
+
+
+def test_a_way_rolled_while_nothing_was_known_is_no_speed() -> None:
+    balancer = Balancer(BalanceControl.design(1.5, 0.12, 0.05))
+    for i in range(3):
+        balancer.update(standing(i), (0.0, 0.0))
+    balancer.update(standing(3, quat=[np.nan] * 4), (5.0, 5.0))
+    assert balancer.update(standing(4), (10.0, 10.0)) == (0.0, 0.0)
+    assert balancer.state is not None and balancer.state.speed == 0.0
+
+
+def test_the_wheels_do_not_mind_the_frame_of_the_attitude() -> None:
+    told = [Balancer(BalanceControl.design(1.5, 0.12, 0.05)) for _ in range(2)]
+    row = standing(0, 0.05)
+    enu, ned = told[0].update(row, (0.0, 0.0)), told[1].update(row.to("ned"), (0.0, 0.0))
+    assert min(enu) > 0.0
+    np.testing.assert_allclose(ned, enu)

@@ -220,6 +220,15 @@ def test_messages_at_a_broker(broker: int) -> None:
         client.loop_stop()
 
 
+@pytest.mark.parametrize(
+    "source", [Mqtt("mqtt://127.0.0.1:1/lab/+"), SerialPort("/dev/ttyNowhere")], ids=["broker", "port"]
+)
+def test_what_is_not_there_is_said(source: Any) -> None:
+    with serving(source) as live:
+        told = wait_for(lambda: [e["text"] for e in live.hub.events if e["kind"] == "source"])
+    assert told == [f"{source.name}: {source.trouble}"] and "it is" in told[0]
+
+
 def test_a_password_is_in_no_name() -> None:
     assert "secret" not in Mqtt("mqtt://me:secret@broker/x").name
     assert Mqtt("mqtt://broker").name == "mqtt://broker:1883/poise/+"
@@ -266,6 +275,12 @@ def test_a_counter_that_wraps_goes_on() -> None:
         ("columns = 'time,banana,gy,gz,ax,ay,az'", "'banana' is no column"),
         ("rate = -1\ncolumns = 'time,gx,gy,gz,ax,ay,az'", "expected a number"),
         ("[frame]\nfields = []", "expected sync and fields"),
+        ("[frame]\nsync = 'aa'\nfields = 5", "expected sync and fields"),
+        ("columns = 5", "columns: expected names"),
+        ("rate = inf\ncolumns = 'gx,gy,gz,ax,ay,az'", "rate: expected a number"),
+        ("baud = 0.5\ncolumns = 'time,gx,gy,gz,ax,ay,az'", "baud: expected a number"),
+        ("columns = 'time,gx,gy,gz,ax,ay,az'\nscale = {acc = nan}", "scale: expected factors"),
+        ("columns = 'time,gx,gy,gz,ax,ay,az'\nscale = {acc = 0}", "scale: expected factors"),
         ("[frame]\nsync = 'xx'\nfields = ['gx i16']", "in hex"),
         ("[frame]\nsync = 'aa'\nfields = ['gx i17']", "types u8"),
         ("[frame]\nsync = 'aa'\nfields = ['gx i16']\nchecksum = 'md5'", "checksum is one of"),
@@ -335,3 +350,11 @@ def test_a_name_that_cannot_be_stops_nobody(sender: socket.socket) -> None:
         same_end(live, "fine", RECORDING)
         assert set(live.hub.devices) == {"fine"}
         assert live.server.refused == 1
+
+
+def test_made_up_addresses_do_not_fill_the_memory() -> None:
+    listening = Udp("127.0.0.1", 0)
+    for k in range(30_000):
+        listening._decoded([(b"nothing", (f"10.0.{k // 256}.{k % 256}", 9000))])
+    assert listening.rejected == 30_000
+    assert max(len(listening._owner), len(listening._decoders)) <= 10_000

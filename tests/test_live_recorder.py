@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import json
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -69,6 +70,34 @@ def test_journal_files_become_parquet_while_it_runs(tmp_path: Path) -> None:
         wait_for(lambda: len(list(tmp_path.glob("*/journal/arm@@*.parquet"))) >= 2)
     (session,) = tmp_path.iterdir()
     same_as_uncut(session, "arm", recording)
+
+
+def test_an_end_while_the_journal_is_taken_away_shortens_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    recording, unlink = made(12.0), os.unlink
+
+    def ending(path: Any, **options: Any) -> None:
+        if str(path).endswith("@@000002.parquet"):
+            raise OSError(errno.EIO, "the plug is pulled")
+        unlink(path, **options)
+
+    monkeypatch.setattr(os, "unlink", ending)
+    recorder = Recorder(Session.below(tmp_path), rotate=60_000)
+    try:
+        with serving(recorder=recorder) as live, live.device("arm") as device:
+            for k in range(0, len(recording), 200):
+                send(device, rows_of(recording)[k : k + 200], first=k)
+                acknowledged(device, min(k + 200, len(recording)))
+    except SessionError:
+        os.close(recorder.session._held)  # as the end of a process does
+    assert list(tmp_path.glob("*/*journal*/arm@@000002.parquet"))
+    monkeypatch.undo()
+    run(["recover", str(tmp_path)])
+    (session,) = tmp_path.iterdir()
+    same_as_uncut(session, "arm", recording)
+    Session.below(tmp_path).finish()
+    assert not list(tmp_path.glob("*/*journal*"))
 
 
 def test_methods_that_changed_have_a_file_each(tmp_path: Path) -> None:
@@ -208,6 +237,24 @@ def test_kill_9_loses_nothing_that_was_acknowledged(tmp_path: Path) -> None:
     assert known == len(rows)
     (session,) = tmp_path.iterdir()
     same_as_uncut(session, "arm", recording)
+
+
+def test_a_device_that_counted_anew_goes_on_from_its_new_numbers(tmp_path: Path) -> None:
+    recording = made(64.0)
+    rows, folder = rows_of(recording), tmp_path / "recording"
+    with serving(recorder=Recorder(Session.below(folder)), max_rate=1e5) as live, live.device("arm") as device:
+        send(device, rows[:600], first=9000)
+        acknowledged(device, 9600)
+        send(device, rows[600:], first=0)  # far back: it began anew
+        acknowledged(device, len(rows) - 600)
+        (journal_folder,) = folder.glob("*/journal")
+        shutil.copytree(journal_folder, tmp_path / "killed" / "session" / "journal")
+    recorder = Recorder(Session.below(tmp_path / "killed"))
+    with serving(recorder=recorder) as live, live.device("arm") as device:
+        assert heard(device, "welcome")["next"] == len(rows) - 600
+        wait_for(lambda: live.hub.devices["arm"].runs)
+        went_on = live.call(lambda: live.hub.devices["arm"].runs[0].stream.latest)
+    np.testing.assert_array_equal(went_on.quat[-1], poise.estimate(EXPECTED, recording).quat[-1])
 
 
 def test_recover_cuts_a_torn_tail_and_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -18,9 +18,11 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 import poise
 from live_helpers import METHOD, Running, ask, heard, made, rows_of, seen, send, serving, wait_for
 from poise.data.event import TipState
+from poise.errors import PoiseError
 from poise.live import frames
 from poise.live.access import Access, AccessError, parsed_tokens
-from poise.live.hub import Hub
+from poise.live.device import Device
+from poise.live.hub import Hub, HubError
 from poise.live.methods import Choice
 from poise.live.replay import Replay
 from poise.live.server import Options, Server, ServerError
@@ -399,3 +401,122 @@ def test_a_fault_of_ours_ends_the_server_loudly() -> None:
         with live.device("any") as device:
             send(device, rows_of(made(0.5)))
             wait_for(live.server.stopping.is_set)
+
+
+def test_no_flood_before_the_methods_are_loaded_ends_the_server_or_fills_the_memory() -> None:
+    waiting: dict[Device, None] = {}
+    together, apart = Device("together", 0, "", waiting), Device("apart", 1, "", waiting)
+    rows = np.zeros((150_000, 12))
+    rows[:, 0], rows[:, 6] = 0.01 * np.arange(len(rows)), 9.81
+    together.receive(rows, 0.0)
+    assert together.health.lost == 50_000
+    taken = together.take()
+    assert taken.sequence == 50_000 and len(taken.rows) == 100_000
+    for k in range(1500):  # with a gap in the numbers before each
+        apart.receive(rows[100 * k : 100 * k + 100], 0.0, 300 * k)
+    kept = []
+    while apart in waiting:
+        del waiting[apart]
+        kept.append(apart.take())
+    assert sum(len(each.rows) for each in kept) == 100_000
+    assert [each.sequence for each in kept] == list(range(300 * 500, 300 * 1500, 300))
+
+
+def test_stamps_that_are_refused_are_not_kept() -> None:
+    device = Device("arm", 0, "", {})
+    rows = np.zeros((8, 12))
+    for k in range(100):
+        rows[:, 0] = 10.0 * np.arange(8 * k, 8 * k + 8)
+        with pytest.raises(PoiseError):
+            device.receive(rows, 0.0)
+    assert device._stamps is not None and len(device._stamps) <= 16
+
+
+@pytest.mark.parametrize("name", ["\U00010400" * 64, "arm.self-calibrating.attitude", ".arm", "a/b", ""])
+def test_a_name_that_would_spoil_a_recordings_files_is_refused(name: str) -> None:
+    hub = Hub((Choice.of(METHOD),))
+    with pytest.raises(HubError, match="letters"):
+        hub.device(name)
+    hub.device("Unterarm-ü")
+
+
+def test_a_heading_is_reset_for_all_methods_or_for_none() -> None:
+    for name in (METHOD, "two-stage"):
+        Choice.of(name).warm()
+    hub = Hub((Choice.of(METHOD), Choice.of("two-stage")))
+    device = hub.device("arm")
+    first, second = device.runs
+    first.stream.update(poise.Packet(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 9.8), (0.0, 20.0, -40.0)))
+    assert first.stream.latest is not None
+    before = first.stream.latest.quat.copy()
+    for runs in ([first, second], []):
+        device.runs = runs
+        with pytest.raises(HubError, match="no attitude yet"):
+            hub.reset_heading(device, "x")
+    np.testing.assert_array_equal(first.stream.latest.quat, before)
+    assert hub.events[-1]["kind"] != "heading"
+
+
+def test_a_body_over_http_is_read_no_further_than_it_may_go(live: Running) -> None:
+    taken, answers = [], []
+    host = [(b"host", live.address.encode())]
+    scope = {"type": "http", "method": "PUT", "path": "/devices/arm/methods", "query_string": b"", "headers": host}
+
+    async def receive() -> dict[str, Any]:
+        taken.append(65536)
+        return {"type": "http.request", "body": b" " * 65536, "more_body": len(taken) < 1000}
+
+    async def send(message: Any) -> None:
+        answers.append(message)
+
+    asyncio.run(live.server.app(scope, receive, send))
+    assert answers[0]["status"] == 400
+    assert len(taken) == 2
+
+
+def test_json_over_http_that_is_too_deep_is_refused(live: Running) -> None:
+    live.call(lambda: live.hub.device("arm"))
+    assert live.http.put("/devices/arm/methods", content="[" * 60_000).status_code == 400
+    assert live.http.get("/healthz").status_code == 200
+
+
+class Slow:
+    """A source whose broker is not there, and that hears what it cannot read."""
+
+    name, shape = "slow", "board"
+    rejected, trouble = 3, "the broker cannot be reached"
+
+    async def arrivals(self) -> Any:
+        await asyncio.sleep(3600)
+        yield None
+
+
+def test_what_is_amiss_with_a_source_is_said_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    with serving(Slow()) as live:
+        time.sleep(2.2)
+        told = [event["text"] for event in live.hub.events if event["kind"] == "source"]
+        monkeypatch.setattr(Slow, "trouble", "")
+        wait_for(lambda: live.hub.events[-1]["text"] == "slow: it is there again")
+    assert len(told) == 2 and "cannot be reached" in told[0] and "3 lines or frames" in told[1]
+
+
+def test_a_replay_at_full_speed_waits_for_its_method(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("poise.live.methods._WARM", set())
+    recording = poise.Recording.at_rate(100.0, np.zeros((150_000, 3)), np.full((150_000, 3), (0.0, 0.0, 9.81)))
+    hub = Hub((Choice.of(METHOD),))
+    server = Server(hub, [Replay(recording, "walk", float("inf"))])
+
+    async def main() -> int:
+        feeding = asyncio.ensure_future(server._feed(server.sources[0]))
+        await asyncio.sleep(0.5)
+        early = hub.devices["walk"].health.samples
+        await asyncio.to_thread(Choice.of(METHOD).warm)
+        hub.set_methods(hub.devices["walk"], hub.methods)
+        while not feeding.done():
+            hub.tick()
+            await asyncio.sleep(0.001)
+        return early
+
+    assert asyncio.run(main()) <= 4096
+    health = hub.devices["walk"].health
+    assert (health.samples, health.lost) == (150_000, 0)

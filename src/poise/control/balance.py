@@ -269,14 +269,16 @@ class Balancer:
         if not isinstance(attitude, Attitude) or turned.shape != (2,):
             raise MethodError(f"expected an Attitude and the angles of two wheels, found {attitude!r}, {wheels!r}")
         self._clock[1:3] = turned
-        n = len(attitude.time)
+        given = attitude if attitude.frame == "enu" else attitude.to("enu")
+        n = len(given.time)
         if n == 0:
             return 0.0, 0.0
+        table, time = np.ascontiguousarray(given.table), np.ascontiguousarray(given.time)
         if self._memory is None:
-            self._clock[0] = attitude.time[0]
-            self._memory = begin(self.control, attitude.table[0], int(attitude.flags[0]), self._clock)
+            self._clock[0] = time[0]
+            self._memory = begin(self.control, table[0], int(given.flags[0]), self._clock)
         torques = np.zeros((n, 2))
-        advance(self._memory, attitude.time, attitude.table, attitude.flags, torques)
+        advance(self._memory, time, table, given.flags, torques)
         return float(torques[-1, 0]), float(torques[-1, 1])
 
     @property

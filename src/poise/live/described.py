@@ -9,6 +9,7 @@ import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import reduce
+from math import isfinite
 from operator import xor
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -95,7 +96,7 @@ class Description:
             text = f"{unknown[0]!r} is none" if unknown else "either columns (text lines) or frame (binary) is needed"
             raise DeviceError(f"{where}: {text}; keys are {known}")
         scale = found.get("scale", {})
-        if not isinstance(scale, dict) or not all(isinstance(v, (int, float)) for v in scale.values()):
+        if not isinstance(scale, dict) or not all(_finite(v) and v for v in scale.values()):
             raise DeviceError(f"{where}: scale: expected factors to SI and µT, like {{acc = 4.79e-3}}")
         if wrong := scale.keys() - {"time", *names.SENSORS}:
             raise DeviceError(f"{where}: scale of {wrong.pop()!r}: expected time, gyr, acc or mag")
@@ -105,6 +106,8 @@ class Description:
         rate = float(_number(where, found, "rate", 0))
         if "columns" in found:
             words = found["columns"].split(",") if isinstance(found["columns"], str) else found["columns"]
+            if not isinstance(words, list):
+                raise DeviceError(f"{where}: columns: expected names like {DEFAULT!r}, found {words!r}")
             made = cls(where, rate=rate, columns=_columns(where, [str(w) for w in words], scale), **facts)
         else:
             made = _binary(where, found["frame"], scale, rate, facts)
@@ -129,9 +132,13 @@ def _characteristic(where: str, ble: Any) -> str:
 
 def _number(where: str, found: dict[str, Any], key: str, default: int) -> Any:
     value = found.get(key, default)
-    if not isinstance(value, (int, float)) or isinstance(value, bool) or value < 0:
+    if not _finite(value) or value < 0 or (key == "baud" and not value >= 1) or 0 < value < 1e-6:
         raise DeviceError(f"{where}: {key}: expected a number, found {value!r}")
-    return value
+    return int(value) if key == "baud" else value
+
+
+def _finite(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and isfinite(value)
 
 
 def _columns(where: str, words: list[str], scale: dict[str, float]) -> tuple[Column, ...]:
@@ -161,7 +168,11 @@ def _columns(where: str, words: list[str], scale: dict[str, float]) -> tuple[Col
 
 def _binary(where: str, frame: Any, scale: dict[str, float], rate: float, facts: dict[str, Any]) -> Description:
     needed = {"fields"} if "characteristic" in facts else {"sync", "fields"}
-    if not isinstance(frame, dict) or not needed <= frame.keys() <= _FRAME_KEYS:
+    if (
+        not isinstance(frame, dict)
+        or not needed <= frame.keys() <= _FRAME_KEYS
+        or not isinstance(frame["fields"], list)
+    ):
         raise DeviceError(
             f"{where}: frame: expected sync and fields (fields for [ble]), and perhaps endian and checksum"
         )

@@ -105,6 +105,8 @@ class Device:
         self._frames: list[bytes] = []  # payloads of 80 bytes a sample
         self._parts: list[Floats] = []
         self._waiting_samples = 0
+        self._apart = 0
+        """samples in `_ready`"""
         self._arrived = self._first_arrived = 0.0
         self._all_waiting = waiting
         self._stamps: list[float] | None = []  # until their unit is known
@@ -140,7 +142,7 @@ class Device:
     def _look_at_stamps(self, rows: Floats) -> None:
         """Raises :class:`RecordingError` while a device begins with stamps that are not in seconds."""
         assert self._stamps is not None
-        self._stamps.extend(rows[:8, 0].tolist())
+        self._stamps = [*self._stamps, *rows[:8, 0].tolist()][-16:]
         stamps = np.array(self._stamps[-8:])
         if len(stamps) >= 4:
             check_unit_of_time(stamps, even=True)
@@ -155,10 +157,23 @@ class Device:
         self._waiting_samples += n
         self._arrived = self.health.heard = now
         self._all_waiting[self] = None
-        if self._waiting_samples > _WAITING and not self.runs:
-            rows = self._parts.pop(0) if self._parts else self._joined()
-            self._waiting_samples -= len(rows)
-            self.health.lost += len(rows)
+        while not self.runs and (over := self._apart + self._waiting_samples - _WAITING) > 0:
+            self._give_up(over)
+
+    def _give_up(self, over: int) -> None:
+        """The oldest samples, *over* of them, wait for a method no longer; more where those before a gap are fewer."""
+        if self._ready:
+            gone = len(self._ready.popleft().rows)
+            self._apart -= gone
+        else:
+            if self._frames:
+                self._parts.append(self._joined())
+            oldest = self._parts.pop(0)
+            gone = min(over, len(oldest))
+            if gone < len(oldest):
+                self._parts.insert(0, oldest[gone:])
+            self._waiting_samples -= gone
+        self.health.lost += gone
 
     def _number(self, sequence: int, count: int) -> int:
         """How many of *count* samples from *sequence* on are known already; a gap before them counts as lost."""
@@ -187,6 +202,7 @@ class Device:
         """What waits is numbered without a gap: what comes now is for the next tick."""
         if self._frames or self._parts:
             self._ready.append(self._take())
+            self._apart += len(self._ready[-1].rows)
 
     @property
     def done(self) -> int:
@@ -198,6 +214,7 @@ class Device:
         if not self._ready:
             return self._take()
         found = self._ready.popleft()
+        self._apart -= len(found.rows)
         if self._ready or self._frames or self._parts:
             self._all_waiting[self] = None
         return found

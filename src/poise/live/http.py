@@ -150,7 +150,7 @@ def application(server: Server) -> App:
 
         async def lines() -> AsyncIterator[str]:
             yield ": poise\n\n"
-            async for event in server.events(int(after) if after.isdecimal() else 0):
+            async for event in server.events(int(after) if after.isdecimal() and len(after) < 20 else 0):
                 yield f"id: {event['number']}\nevent: {event['kind']}\ndata: {json.dumps(event)}\n\n"
 
         return StreamingResponse(lines(), media_type="text/event-stream", headers={"cache-control": "no-store"})
@@ -211,7 +211,7 @@ def application(server: Server) -> App:
             WebSocketRoute("/ws/device/{name}", _Push(server)),
             page,
         ],
-        exception_handlers={PoiseError: refused, ValueError: refused, OSError: refused},
+        exception_handlers={PoiseError: refused, ValueError: refused, RecursionError: refused, OSError: refused},
     )
     server.offers = sorted({"/phone", "/recordings"} & {getattr(route, "path", "") for route in app.routes})
     return app  # type: ignore[no-any-return]
@@ -255,10 +255,12 @@ def server_health(server: Server) -> tuple[bool, list[str]]:
 
 async def _object(request: Request, of_list: str | None = None) -> dict[str, Any]:
     """The JSON object of a request; a list stands for one whose only key is *of_list*."""
-    body = await request.body() or b"{}"
-    if len(body) > 65536:
-        raise HubError("more than 64 KiB")
-    asked = json.loads(body)
+    body = b""
+    async for piece in request.stream():
+        body += piece
+        if len(body) > 65536:
+            raise HubError("more than 64 KiB")
+    asked = json.loads(body or b"{}")
     if of_list is not None and isinstance(asked, list):
         asked = {of_list: asked}
     if not isinstance(asked, dict):

@@ -26,6 +26,7 @@ from poise.live.watching import Watch, as_facts, as_text
 _EVENTS = 1000
 MOST_DEVICES = 10_000
 _QUICKEST, _SLOWEST = 0.004, 0.02  # s between ticks: as often as a quarter of the time allows
+_NAME_BYTES = 160  # of the 255 that a file's name may have: a recording's have the method and an ending, too
 _LATE_TICK = 0.02  # s beside the pause; a tick that comes later than this says nothing about devices
 
 
@@ -178,6 +179,9 @@ class Hub:
 
     def reset_heading(self, device: Device, forward: str = "y") -> None:
         """The direction that body axis *forward* of *device* points to now is north from now on, for all its methods."""
+        latest = [run.stream.latest for run in device.runs]
+        if not latest or any(each is None or not np.isfinite(each.quat[-1]).all() for each in latest):
+            raise HubError(f"{device.name} has no attitude yet, so there is no heading to reset")
         for run in device.runs:
             run.stream.reset_heading(forward)
         for told in self.on_switch:
@@ -334,5 +338,7 @@ class Hub:
 
 
 def _check_name(kind: str, name: str) -> None:
-    if not 0 < len(name) <= 64 or not all(c.isalnum() or c in "-_.:" for c in name) or name.startswith("."):
+    """Refuses a name that cannot be that of files, beside the `NAME.METHOD.attitude.parquet` of others."""
+    letters = 0 < len(name) <= 64 and all(c.isalnum() or c in "-_.:" for c in name)
+    if not letters or len(name.encode()) > _NAME_BYTES or name.startswith(".") or name.endswith(".attitude"):
         raise HubError(f"{kind} {name[:80]!r}: expected 1 to 64 letters, digits, - _ . or :")

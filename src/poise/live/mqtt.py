@@ -45,6 +45,8 @@ class Mqtt:
         self._description = description
         self._decoders: dict[str, Decoder] = {}
         self.rejected = self.dropped = 0
+        self.trouble = ""
+        """why nothing comes, where that is known"""
 
     async def arrivals(self) -> AsyncIterator[Arrival]:
         from paho.mqtt.client import Client
@@ -62,8 +64,18 @@ class Mqtt:
             if reason.is_failure and reason.getName() in ("Bad user name or password", "Not authorized"):
                 failure.append(str(reason))
                 tell()
+            elif reason.is_failure:
+                self.trouble = f"the broker says {reason}; it is asked again"
             else:
+                self.trouble = ""
                 client.subscribe(self._topic)
+
+        def failed(client: Any, data: Any) -> None:
+            self.trouble = "the broker cannot be reached; it is tried again"
+
+        def disconnected(client: Any, data: Any, flags: Any, reason: Any, properties: Any) -> None:
+            if reason.is_failure:
+                self.trouble = self.trouble or "the broker has gone; it is waited for"
 
         def arrived(client: Any, data: Any, message: Any) -> None:
             self.dropped += len(waiting) == _MOST_WAITING
@@ -73,6 +85,7 @@ class Mqtt:
 
         client = Client(CallbackAPIVersion.VERSION2)
         client.on_connect, client.on_message = connected, arrived
+        client.on_connect_fail, client.on_disconnect = failed, disconnected
         client.reconnect_delay_set(1, 5)
         if self._login is not None:
             client.username_pw_set(*self._login)

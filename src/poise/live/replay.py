@@ -22,9 +22,11 @@ class Replay:
     """Plays *recording* as the device *device*; *speed* 1 is real time, ``inf`` as fast as it can be taken."""
 
     shape: Shape = "board"
+    can_wait = True
 
     def __init__(self, recording: Recording, device: str = "", speed: float = 1.0, loop: bool = False) -> None:
-        self.device = device or re.sub(r"[^\w.:-]", "-", recording.name or "replay").lstrip(".")[:64] or "replay"
+        name = re.sub(r"[^\w.:-]", "-", recording.name or "replay").lstrip(".")[:64]
+        self.device = device or name.encode()[:160].decode("utf-8", "ignore").removesuffix(".attitude") or "replay"
         self.name = f"replay of {Path(recording.source).name or recording.name or 'a recording'}"
         self._speed, self._loop = speed, loop
         self._rows = np.column_stack([getattr(recording, column) for column in ROW_COLUMNS])

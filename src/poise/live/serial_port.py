@@ -28,6 +28,8 @@ class SerialPort:
         if self._description.layout and not self._description.sync:
             raise DeviceError(f"{self.name}: the description has no sync, by which frames at a port are told apart")
         self._decoder = Decoder(description)
+        self.trouble = ""
+        """why nothing comes, where that is known"""
         self._device = self._description.device or Path(port).name
 
     @property
@@ -63,6 +65,7 @@ class SerialPort:
         while not ended.is_set():
             try:
                 with serial.Serial(self.port, self._description.baud, timeout=0.1, exclusive=True) as opened:
+                    self.trouble = ""
                     while not ended.is_set():
                         first = opened.read(1)
                         if first:
@@ -75,5 +78,6 @@ class SerialPort:
                     return give(DeviceError(f"{self.name}: not allowed; add yourself to the port's group (dialout)"))
                 if "exclusively lock" in str(problem):
                     return give(DeviceError(f"{self.name}: another program has it open"))
+                self.trouble = "no such port, or it was unplugged; it is waited for"
                 ended.wait(_RETRY)
         return None

@@ -100,6 +100,7 @@ class Server:
         self._warming: set[Choice] = set()
         self.refused = 0
         """packets that no device could take"""
+        self._said: dict[str, object] = {}
         self._failure: BaseException | None = None
         self._tasks: set[asyncio.Task[None]] = set()
         hub.on_batch.append(self._to_viewers)
@@ -183,6 +184,7 @@ class Server:
                     [r.stream.heading_reference for d in self.hub.devices.values() for r in d.runs],
                 )
                 self._changed |= headings != before  # a magnetometer has spoken: zero means something else now
+                self._look_at_sources()
             if slices:
                 self._say(partial(self.health, slices.pop()))
             await asyncio.sleep(self.hub.pause)
@@ -231,9 +233,23 @@ class Server:
                     device.receive(arrival.rows, time.monotonic(), arrival.sequence)
                 except PoiseError as problem:
                     self._refused(device, source.name, problem)
+                while device is not None and not device.runs and getattr(source, "can_wait", False):
+                    await asyncio.sleep(0.02)  # for the method to be loaded
             self.hub.event("end", None, f"{source.name} has come to its end")
         except (PoiseError, OSError) as problem:
             self.hub.event("failed", None, f"{source.name}: {problem}")
+
+    def _look_at_sources(self) -> None:
+        """Says what is amiss with a source that goes on: nothing else would tell why no device appears."""
+        for source in self.sources:
+            trouble, unread = getattr(source, "trouble", ""), getattr(source, "rejected", 0)
+            if trouble != self._said.get(source.name, ""):
+                self._said[source.name] = trouble
+                self.hub.event("source", None, f"{source.name}: {trouble or 'it is there again'}")
+            if unread and unread // 1000 != self._said.get(f"{source.name} unread"):
+                self._said[f"{source.name} unread"] = unread // 1000
+                what = f"{unread} lines or frames so far could not be read"
+                self.hub.event("source", None, f"{source.name}: {what}; `--describe` says what a device sends")
 
     def _refused(self, device: Device | None, source: str, problem: PoiseError) -> None:
         """Counts what a device should not have sent; says so at the first and then every thousandth time."""
@@ -341,6 +357,8 @@ class Server:
         if kind == "remove_joint":
             return self.hub.remove_joint(str(asked.get("name")))
         device = self.hub.find(str(asked.get("device")))
+        if device.to_restore is not None:
+            raise HubError(f"{device.name} is being brought to where its recording ends; ask again in a moment")
         if kind == "methods":
             self.hub.set_methods(device, choices(asked.get("methods")))
         else:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import fcntl
 import os
+import shutil
 from collections import defaultdict
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 _JOURNAL = "journal"
+_DONE = ".journal-done"  # nothing in it is needed
 
 
 class SessionError(PoiseError):
@@ -67,6 +69,8 @@ class Session:
     @classmethod
     def below(cls, folder: Path) -> Session:
         """The session below *folder* that was not finished, the youngest, or a new one named after the time."""
+        for rest in folder.glob(f"*/{_DONE}"):
+            shutil.rmtree(rest, ignore_errors=True)
         unfinished = interrupted(folder)
         name = datetime.now(UTC).strftime("%Y-%m-%dT%H-%M-%S")
         made = cls(unfinished[-1] if unfinished else _unused(folder / name))
@@ -121,9 +125,10 @@ class Session:
                 self.found.samples += parts.convert(path, number, self.journal)
                 path.unlink()
             made = parts.join(self.journal, self.folder)
-            for path in self.journal.iterdir():
-                path.unlink()
-            self.journal.rmdir()
+            _sync(self.folder)
+            done = self.folder / _DONE  # at once: who goes on from some of the parts would make shorter files of them
+            self.journal.rename(done)
+            shutil.rmtree(done, ignore_errors=True)
             os.close(self._held)
             if not made:
                 with suppress(OSError):
@@ -160,13 +165,13 @@ class Session:
                     last[block.head["device"]] = block.head
                     since[block.head["device"]].clear()
                 else:
-                    for name, first, start, stop, _, _ in block.head["spans"]:
-                        if not since[name] or since[name][-1][0] < first:  # once, however many methods
-                            since[name].append((first, block.rows[start:stop]))
+                    once = {name: (first, start, stop) for name, first, start, stop, *_ in block.head["spans"]}
+                    for name, (first, start, stop) in once.items():  # not once a method
+                        since[name].append((first, block.rows[start:stop]))
         for name, head in last.items():
             device = hub.restored(name)
             rows = since[name]
-            device.next = max([head["next"], *(first + len(part) for first, part in rows)])
+            device.next = rows[-1][0] + len(rows[-1][1]) if rows else head["next"]
             device.to_restore = (head, [part for _, part in rows])
         if last:
             hub.event("resumed", None, f"{len(last)} devices go on in {self.folder.name}")

@@ -99,6 +99,8 @@ class Udp:
         owner, heard = self._owner.get(host, (port, 0.0))
         if owner != port and now - heard < _STALE:
             return f"{host}:{port}"
+        if len(self._owner) >= _MOST_PEERS:  # addresses can be made up: they are not kept for ever
+            self._owner.clear()
         self._owner[host] = (port, now)
         return host
 
