@@ -53,7 +53,9 @@ def test_curl(address: str) -> None:
 
 
 def test_the_descriptions_are_descriptions() -> None:
-    text, binary = (Description.of(tomllib.loads(block)) for block in blocks("toml"))
+    text, binary, ble = (Description.of(tomllib.loads(block)) for block in blocks("toml"))
+    assert ble.characteristic.startswith("0000a001-")
+    assert (ble.layout, ble.sync) == ("<hhhhhh", b"")
     assert text.device == "glove"
     assert binary.layout == "<hhhhhh"
 

@@ -18,6 +18,7 @@ import pytest
 import poise
 from live_helpers import METHOD, made
 from poise.cli import run
+from poise.cli.page import show_in_browser
 from poise.data.flags import Flag
 from poise.live.film import Film, FilmError, Strip, of_attitude, of_recording
 from poise.live.frames import ATTITUDE, HEADER, records
@@ -147,3 +148,26 @@ def test_mistakes_are_told(
     poise.write(made(1.0), tmp_path / "walk.csv")
     assert run(["view", *arguments, "--no-open"]) == status
     assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("wanted", "terminal", "screen", "opens"),
+    [
+        (None, True, ":0", True),
+        (None, False, ":0", False),
+        (True, False, ":0", True),
+        (True, True, "", False),
+        (False, True, ":0", False),
+    ],
+)  # fmt: skip
+def test_a_browser_is_opened_where_someone_sits(
+    wanted: bool | None, terminal: bool, screen: str, opens: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    opened: list[str] = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    monkeypatch.setattr("sys.platform", "linux")
+    monkeypatch.setattr("sys.stdout.isatty", lambda: terminal, raising=False)
+    monkeypatch.setenv("DISPLAY", screen)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    show_in_browser("http://127.0.0.1:1/", wanted)
+    assert opened == (["http://127.0.0.1:1/"] if opens else [])

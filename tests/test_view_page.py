@@ -35,7 +35,7 @@ def drawn(page: Any, method: int, time: float) -> np.ndarray[Any, Any]:
     page.evaluate("time => poise.playhead.seek(time)", time)
     until(page, "poise.store.version === poise.painted()")
     [name] = page.evaluate("[...poise.store.devices.keys()]")
-    return np.array(page.evaluate("([name, method]) => poise.drawn(name, method)", [name, method]), float)
+    return np.array(page.evaluate("([name, method]) => poise.drawn(name, method).quat", [name, method]), float)
 
 
 def apart(p: Any, q: Any) -> float:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from importlib.util import find_spec
 from math import isnan, radians
 from time import monotonic
@@ -206,6 +209,27 @@ def test_a_world_is_seen_without_a_screen() -> None:
     worlds.run(world, 1.6, lambda _: (0.3, 0.3))
     assert np.abs(world.render(160, 120).astype(int) - picture).max() > 30, "it has moved"
     assert picture.std() > 10.0
+
+
+@pytest.mark.parametrize(
+    ("setting", "first", "says"),
+    [("", "import mujoco", "set MUJOCO_GL=osmesa"), ("wrong", "", "MUJOCO_GL can be osmesa")],
+)
+def test_a_renderer_that_cannot_be_is_said(setting: str, first: str, says: str) -> None:
+    """A program may have imported mujoco before, which chooses how to draw when it is imported."""
+    if not sys.platform.startswith("linux"):
+        pytest.skip("elsewhere there is a screen")
+    code = f"""{first}
+from poise.errors import PoiseError
+from poise.simulation.worlds import Balance
+try:
+    Balance().render(64, 64)
+except PoiseError as error:
+    print(error)"""
+    screenless = {name: text for name, text in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, env=screenless | {"MUJOCO_GL": setting}, capture_output=True, text=True, check=True)
+    assert says in done.stdout and not done.stderr
 
 
 def test_a_live_stream_keeps_time() -> None:

@@ -12,16 +12,22 @@ if TYPE_CHECKING:
 
 def address(options: Options) -> str:
     """Where the page of a server is, once it listens."""
-    name = f"[{options.host}]" if ":" in options.host else options.host
-    if options.host in ("0.0.0.0", "::"):
-        name = "127.0.0.1"
-    return f"{'https' if options.certificate else 'http'}://{name}:{options.port}/"
+    from poise.live.address import base, listens_everywhere
+
+    return base(options, "127.0.0.1" if listens_everywhere(options.host) else options.host)
 
 
-def show_in_browser(where: str) -> None:
-    """Opens *where* in the user's browser, if there is a screen for one: never a browser of the terminal."""
+def show_in_browser(where: str, wanted: bool | None) -> None:
+    """Opens *where* in the user's browser: where *wanted*, or, unless told, where someone sits at a terminal.
+
+    Only if there is a screen for one, and never a browser of the terminal.
+    """
     import webbrowser
 
-    if sys.platform.startswith("linux") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
-        return
-    webbrowser.open(where)
+    if wanted is None:
+        wanted = sys.stdout.isatty()
+    screen = bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")) or not sys.platform.startswith(
+        "linux"
+    )
+    if wanted and screen:
+        webbrowser.open(where)

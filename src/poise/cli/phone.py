@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, TextIO
 
 from poise.cli import show
+from poise.cli.page import address
 
 if TYPE_CHECKING:
     from poise.live.server import Options
@@ -13,15 +14,22 @@ if TYPE_CHECKING:
 _COMMAND = "poise live phone --host 0.0.0.0 --https"
 
 
-def addresses(options: Options) -> Iterator[str]:
+def page_address(options: Options) -> str:
     """Where the dashboard is; with the token only if it was made up just now, or nobody would know it."""
-    from poise.cli.page import address
+    return address(options) + _token(options)
+
+
+def addresses(options: Options) -> Iterator[str]:
+    """What to open on this machine, and on others."""
     from poise.live.address import base, listens_everywhere, own_addresses
 
-    token = f"#token={options.made_token}" if options.made_token else ""
-    yield f"poise live on {address(options)}{token}  (Ctrl-C ends it)"
+    yield f"poise live on {page_address(options)}  (Ctrl-C ends it)"
     if listens_everywhere(options.host) and (own := own_addresses()):
-        yield f"from other machines: {base(options, own[0])}{token}"
+        yield f"from other machines: {base(options, own[0])}{_token(options)}"
+
+
+def _token(options: Options) -> str:
+    return f"#token={options.made_token}" if options.made_token else ""
 
 
 def tell_phone(options: Options, out: TextIO) -> None:

@@ -34,7 +34,7 @@ def view(
     offline: Annotated[bool, Parameter(negative="")] = False,
     tipover: Path | None = None,
     port: int = 0,
-    open: bool = True,
+    open: bool | None = None,
     reading: Reading | None = None,
 ) -> int:
     """Play recordings on the page of `poise live`: methods and reference side by side, with a time slider.
@@ -58,7 +58,7 @@ def view(
     port
         The port; a free one if not given.
     open
-        Open the page in a browser.
+        Open the page in a browser; done unless told where there is a terminal and a screen.
     """
     from poise.live.serving import check_installed, run
 
@@ -100,7 +100,7 @@ def _film(
 ) -> Film:
     from poise.data.attitude import Attitude
     from poise.estimators import METHODS
-    from poise.estimators.engine import estimate
+    from poise.estimators.batch import estimate
     from poise.estimators.self_calibrating.smoother import smooth
     from poise.live.film import Strip, of_attitude, of_recording
 
@@ -133,7 +133,7 @@ def _judged(attitude: Attitude, recording: Recording | None, monitor: TipOver | 
     return None if monitor is None else judge(attitude, recording, monitor).state
 
 
-async def _served(films: list[Film], port: int, opened: bool) -> None:
+async def _served(films: list[Film], port: int, opened: bool | None) -> None:
     import asyncio
 
     from poise.live.hub import Hub
@@ -146,8 +146,7 @@ async def _served(films: list[Film], port: int, opened: bool) -> None:
         await ready.wait()
         where = page.address(server.options) + "?view"
         print(f"poise view on {where}  (Ctrl-C ends it)", flush=True)
-        if opened:
-            await asyncio.to_thread(page.show_in_browser, where)
+        await asyncio.to_thread(page.show_in_browser, where, opened)
 
     telling = asyncio.create_task(tell())
     try:

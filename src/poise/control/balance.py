@@ -20,7 +20,7 @@ from poise.estimators.parameters import prepared
 from poise.estimators.protocol import start, step
 from poise.math.compiled import Memory, compiled, entry
 from poise.math.quaternions import inner, up_in_body
-from poise.math.vectors import present
+from poise.math.vectors import dot, present
 
 Floats = NDArray[np.float64]
 BALANCING = 3  # as ATTITUDE: it holds one
@@ -49,10 +49,14 @@ class State(NamedTuple):
     left: float  # N m, positive forward
     right: float  # N m
     doing: int  # OFF or BALANCING
-    way: float  # m, how far the axle has rolled
+    rolled: Wheels  # m, how far each wheel has rolled
+    hubs: Wheels  # m/s, the axle's speed as each wheel tells it, smoothed
+    speed: float  # m/s, of the axle
+    way: float  # m, that it has gone
     wanted: float  # m, where it was to be by now
     pace: float  # m/s, the wanted speed on its ramp
-    speed: float  # m/s, of the axle, smoothed
+    lean: float  # rad
+    blind: float  # s since the attitude was valid
 
 
 class BalanceControl(NamedTuple):
@@ -60,7 +64,13 @@ class BalanceControl(NamedTuple):
 
     ``torque = Kφ φ + Kω φ' + Kv (v − v*) + Ks (s − s*)`` for both wheels together; s* runs with the wanted speed v*, which
     changes by no more than *acceleration*, and is dragged along where s is more than *reach* away. Without a valid attitude, a
-    measured rate and wheels, or leaning beyond *give_up*, there is no torque. No torque is ever NaN.
+    measured rate and wheels, or leaning beyond *give_up*, there is no torque; but for *bridge* s a lean that was valid
+    before is carried on by the measured rate. No torque is ever NaN.
+
+    A wheel that leaves the ground spins up within some hundredths of a second, and a speed that believed it would make both
+    motors follow. So each wheel tells the axle's speed, with the gyroscope's turning rate over *track* taken out; the one
+    that agrees with the speed before counts more, the speed changes by no more than *grip* allows, and what a wheel spins
+    faster than the axle goes is braked by *traction*.
     """
 
     way: Annotated[float, "N m/m", "Ks"]
@@ -73,6 +83,13 @@ class BalanceControl(NamedTuple):
     acceleration: Annotated[float, "m/s²", "how fast the wanted speed changes", (1e-6, 1e6)] = 0.3
     reach: Annotated[float, "m", "how far the way may be off before what is wanted gives in", (1e-6, 1e6)] = 0.3
     smoothing: Annotated[float, "s", "time constant of the speed, against the encoders' steps"] = 0.02
+    track: Annotated[float, "m", "from wheel to wheel", (1e-3, 100.0)] = 0.2
+    grip: Annotated[float, "m/s²", "most acceleration that the tyres can give", (1e-3, 1e6)] = 8.0
+    slip: Annotated[float, "m/s", "how far a wheel's speed may be off by the encoder's steps", (1e-6, 1e6)] = 0.1
+    traction: Annotated[float, "N m s/m", "torque against the slip of a wheel beyond that"] = 0.3
+    bridge: Annotated[
+        float, "s", "how long it balances on by the rate alone when the attitude is not valid", (0.0, 60.0)
+    ] = 0.0
     give_up: Annotated[float, "rad", "largest lean that is still balanced", (0.0, 3.2)] = radians(50.0)
 
     @classmethod
@@ -124,43 +141,82 @@ class BalanceControl(NamedTuple):
         return cls(k_way, k_speed, k_lean, k_rate, r, **limits)
 
     def start(self, out: Output, wheels: Wheels, drive: Drive) -> State:
-        way = _way(self, out, wheels)
-        return State(0.0, 0.0, OFF, way, way, 0.0, 0.0)
+        up = up_in_body(out.attitude)
+        return _rest(_rolled(self, atan2(-up.y, up.z), wheels))
 
     def step(self, state: State, out: Output, wheels: Wheels, drive: Drive) -> State:
         dt = out.dt if 0.0 < out.dt < 1.0 else 0.0
-        way = _way(self, out, wheels)
-        known = inner(out.attitude, out.attitude) + way + drive.speed + drive.turn
         up = up_in_body(out.attitude)
-        lean = atan2(-up.y, up.z)
-        stands = out.flags & INVALID == 0 and present(out.rate) and known - known == 0.0 and abs(lean) <= self.give_up
+        valid, blind, lean = out.flags & INVALID == 0, 0.0, atan2(-up.y, up.z)
+        if not valid:
+            blind, lean = state.blind + dt, state.lean - out.rate.x * dt
+            valid = state.doing == BALANCING and blind <= self.bridge
+        rolled = _rolled(self, lean, wheels)
+        known = inner(out.attitude, out.attitude) + rolled.left + rolled.right + drive.speed + drive.turn
+        stands = valid and present(out.rate) and known - known == 0.0 and abs(lean) <= self.give_up
         if not stands:
-            return State(0.0, 0.0, OFF, way if way == way else state.way, way if way == way else state.way, 0.0, 0.0)
-        speed = state.speed
+            return _rest(rolled)
+        hubs, speed = state.hubs, state.speed
         if dt > 0.0:
-            speed += dt / (self.smoothing + dt) * ((way - state.way) / dt - speed)
-        change, most = drive.speed - state.pace, self.acceleration * dt
-        pace = state.pace + min(max(change, -most), most)
+            apart = 0.5 * self.track * dot(out.rate, up)
+            before = state.rolled if _told(state.rolled) else rolled
+            gain = dt / (self.smoothing + dt)
+            left = hubs.left + gain * ((rolled.left - before.left) / dt + apart - hubs.left)
+            right = hubs.right + gain * ((rolled.right - before.right) / dt - apart - hubs.right)
+            hubs = Wheels(left, right)
+            speed += _within(_agreed(hubs, speed, self.slip) - speed, self.grip * dt)
+        pace = state.pace + _within(drive.speed - state.pace, self.acceleration * dt)
+        way = state.way + speed * dt
         wanted = min(max(state.wanted + pace * dt, way - self.reach), way + self.reach)
         both = self.way * (way - wanted) + self.speed * (speed - pace) + self.lean * lean - self.lean_rate * out.rate.x
         turning = self.turn * (drive.turn - out.rate.z)
         left, right = _limited(0.5 * both, turning, self.torque_limit)
-        return State(left, right, BALANCING, way, wanted, pace, speed)
+        left -= self.traction * _beyond(hubs.left - speed, self.slip)
+        right -= self.traction * _beyond(hubs.right - speed, self.slip)
+        left, right = _within(left, self.torque_limit), _within(right, self.torque_limit)
+        return State(left, right, BALANCING, rolled, hubs, speed, way, wanted, pace, lean, blind)
 
 
 @compiled
-def _way(control: BalanceControl, out: Output, wheels: Wheels) -> float:
-    """m, how far the axle has rolled: the wheels turn against a body that leans itself."""
-    up = up_in_body(out.attitude)
-    return control.wheel_radius * (0.5 * (wheels.left + wheels.right) + atan2(-up.y, up.z))
+def _told(wheels: Wheels) -> bool:
+    return wheels.left - wheels.left + wheels.right - wheels.right == 0.0
+
+
+@compiled
+def _rest(rolled: Wheels) -> State:
+    return State(0.0, 0.0, OFF, rolled, Wheels(0.0, 0.0), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@compiled
+def _rolled(control: BalanceControl, lean: float, wheels: Wheels) -> Wheels:
+    """m, how far the wheels have rolled: they turn against a body that leans itself."""
+    return Wheels(control.wheel_radius * (wheels.left + lean), control.wheel_radius * (wheels.right + lean))
+
+
+@compiled
+def _agreed(hubs: Wheels, speed: float, slip: float) -> float:
+    """m/s of the axle: the mean of what the wheels tell, less and less of one that is further than *slip* from *speed*."""
+    left = 1.0 / (slip * slip + (hubs.left - speed) ** 2)
+    right = 1.0 / (slip * slip + (hubs.right - speed) ** 2)
+    return (left * hubs.left + right * hubs.right) / (left + right)
+
+
+@compiled
+def _within(value: float, most: float) -> float:
+    return min(max(value, -most), most)
+
+
+@compiled
+def _beyond(value: float, least: float) -> float:
+    """What of *value* is more than *least*, either way."""
+    return value - _within(value, least)
 
 
 @compiled
 def _limited(each: float, turning: float, most: float) -> tuple[float, float]:
     """Both wheels' torques within the limit: balancing comes before turning."""
-    each = min(max(each, -most), most)
-    room = most - abs(each)
-    turning = min(max(turning, -room), room)
+    each = _within(each, most)
+    turning = _within(turning, most - abs(each))
     return each - turning, each + turning
 
 

@@ -97,6 +97,8 @@ class Device:
         """how many connections it has now"""
         self.monitor: Monitor | None = None
         self.tip = frames.NOT_MONITORED
+        self.timebase = ""
+        """what its stamps count from, where other devices' stamps do, too"""
         self.to_restore: Any = None
         """a checkpoint and the samples since, of a recording that goes on"""
         self._ready: deque[Taken] = deque()  # samples before a gap in their numbers

@@ -20,12 +20,17 @@ from poise.errors import PoiseError
 from poise.live import frames, http
 from poise.live.access import Access, Gate
 from poise.live.hub import Hub, HubError
+from poise.live.joint import Joint
 from poise.live.methods import Choice, described
 from poise.live.session import rebuilt
 from poise.live.sockets import DeviceSocket, Viewer, choices
 from poise.version import __version__
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from poise.data.attitude import Attitude
     from poise.live.batch import Batch
     from poise.live.device import Device
     from poise.live.devices import Source
@@ -98,6 +103,7 @@ class Server:
         self._failure: BaseException | None = None
         self._tasks: set[asyncio.Task[None]] = set()
         hub.on_batch.append(self._to_viewers)
+        hub.joints.on_rows.append(self._joint_to_viewers)
         hub.on_event.append(self._tell_event)
         hub.on_change.append(self._note_change)
 
@@ -154,7 +160,7 @@ class Server:
 
     async def _ticking(self) -> None:
         due, forget, listed = 0.0, 0.0, 0.0
-        slices: list[list[Device]] = []
+        slices: list[list[Device | Joint]] = []
         headings: list[str] = []
         while True:
             self.hub.tick()
@@ -170,9 +176,12 @@ class Server:
                 forget = now + _FLAGS_EVERY
                 self.hub.newest.forget_flags()
             if now > due:
-                due, devices = now + _HEALTH_EVERY, list(self.hub.devices.values())
+                due, devices = now + _HEALTH_EVERY, self.hub.shown
                 slices = [devices[k : k + _SLICE] for k in range(0, max(len(devices), 1), _SLICE)]
-                before, headings = headings, [r.stream.heading_reference for d in devices for r in d.runs]
+                before, headings = (
+                    headings,
+                    [r.stream.heading_reference for d in self.hub.devices.values() for r in d.runs],
+                )
                 self._changed |= headings != before  # a magnetometer has spoken: zero means something else now
             if slices:
                 self._say(partial(self.health, slices.pop()))
@@ -210,11 +219,15 @@ class Server:
 
     async def _feed(self, source: Source) -> None:
         """A source's packets to the hub; what goes wrong with it is an event, and other devices go on."""
+        if hasattr(source, "tell"):
+            source.tell = lambda text: self.hub.event("source", None, text)
+        timebase = source.name if getattr(source, "one_clock", False) else ""
         try:
             async for arrival in source.arrivals():
                 device = self.hub.devices.get(arrival.device)
                 try:
                     device = self.hub.device(arrival.device, source.name, source.shape)
+                    device.timebase = timebase
                     device.receive(arrival.rows, time.monotonic(), arrival.sequence)
                 except PoiseError as problem:
                     self._refused(device, source.name, problem)
@@ -243,11 +256,17 @@ class Server:
                 viewer.say(text)
 
     def _to_viewers(self, batch: Batch) -> None:
+        self._put_records(batch.records)
+
+    def _joint_to_viewers(self, joint: Joint, attitude: Attitude, records: NDArray[np.void]) -> None:
+        self._put_records(lambda: records)
+
+    def _put_records(self, records: Callable[[], NDArray[np.void]]) -> None:
         every = [viewer for viewer in self.viewers if viewer.wants_every]
         if every:
-            frame = frames.attitudes(batch.records(), self.next_frame())
+            frame = frames.attitudes(records(), self.next_frame())
             for viewer in every:
-                viewer.put(batch, frame)
+                viewer.put(records, frame)
 
     def _tell_event(self, event: dict[str, Any]) -> None:
         self._say(lambda: event)
@@ -293,23 +312,34 @@ class Server:
 
     def device_list(self) -> dict[str, Any]:
         """All devices, for pages."""
-        return {"type": "devices", "devices": [device.described() for device in self.hub.devices.values()]}
+        return {
+            "type": "devices",
+            "devices": [
+                *(device.described() for device in self.hub.devices.values()),
+                *(joint.described(self.hub.devices) for joint in self.hub.joints.all.values()),
+            ],
+        }
 
-    def health(self, devices: Iterable[Device] | None = None) -> dict[str, Any]:
-        """How *devices* fare, all unless told."""
+    def health(self, devices: Iterable[Device | Joint] | None = None) -> dict[str, Any]:
+        """How *devices* and joints fare, all unless told."""
+        hub = self.hub
         waits = self.hub.waits
         now = time.monotonic()
         return {
             "type": "health",
             "time": time.time(),
-            "devices": [device.condition(now) for device in devices or self.hub.devices.values()],
+            "devices": hub.conditions(devices or hub.shown, now),
             "viewers": len(self.viewers),
             "wait_ms": {"p50": round(1e3 * waits.quantile(0.5), 3), "p99": round(1e3 * waits.quantile(0.99), 3)},
             "recording": self.recorder.condition() if self.recorder else None,
         }
 
     def change(self, kind: str, asked: dict[str, Any]) -> None:
-        """What someone who may write asks for: ``methods`` or ``reset_heading``. Raises :class:`PoiseError`."""
+        """What someone who may write asks for: one of ``sockets._CHANGES``. Raises :class:`PoiseError`."""
+        if kind == "joint":
+            return self.hub.set_joint(*(str(asked.get(key, "")) for key in ("name", "segment", "base")))
+        if kind == "remove_joint":
+            return self.hub.remove_joint(str(asked.get("name")))
         device = self.hub.find(str(asked.get("device")))
         if kind == "methods":
             self.hub.set_methods(device, choices(asked.get("methods")))
@@ -318,6 +348,7 @@ class Server:
             if forward not in ("x", "y", "z", "-x", "-y", "-z"):
                 raise HubError(f"forward: expected a body axis such as y or -x, found {forward!r}")
             self.hub.reset_heading(device, forward)
+        return None
 
     async def events(self, after: int) -> AsyncIterator[dict[str, Any]]:
         """Events numbered above *after*, those of the past first."""

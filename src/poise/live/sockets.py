@@ -6,11 +6,12 @@ import asyncio
 import json
 import time
 from collections import deque
-from collections.abc import MutableMapping
+from collections.abc import Callable, MutableMapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from poise.errors import PoiseError
 from poise.live import frames, texts
@@ -20,10 +21,10 @@ from poise.live.motion import Motion, asked
 
 if TYPE_CHECKING:
     from poise.live.access import Receive, Send
-    from poise.live.batch import Batch
     from poise.live.server import Server
 
 _MOST_ERRORS = 10
+_CHANGES = ("methods", "reset_heading", "joint", "remove_joint")  # what takes the scope `write`
 _EVERY_FRAMES, _EVERY_BYTES = 512, 8 << 20  # that may wait for a viewer of every sample
 _POLICY, _TRY_LATER = 1008, 1013  # close codes
 _RAW_MOTION = bytes((frames.MOTION,))
@@ -220,20 +221,21 @@ class Viewer:
             self.say({"type": "dropped", "frames": self._dropped})
 
     def _numbers(self) -> list[int]:
-        devices = self._server.hub.devices
-        return [devices[name].number for name in self._wanted or () if name in devices]
+        hub = self._server.hub
+        both = (hub.devices.get(name) or hub.joints.all.get(name) for name in self._wanted or ())
+        return [each.number for each in both if each is not None]
 
     @property
     def wants_every(self) -> bool:
         """Whether it is to get every sample, not the newest."""
         return self._every is not None
 
-    def put(self, batch: Batch, frame: bytes) -> None:
-        """One more *frame* of every sample; where too many wait, the oldest is dropped and counted."""
+    def put(self, records: Callable[[], NDArray[np.void]], frame: bytes) -> None:
+        """One more *frame*, of every one of *records*; where too many wait, the oldest is dropped and counted."""
         if self._every is None:
             return
         if self._wanted is not None:
-            found = batch.records()
+            found = records()
             found = found[np.isin(found["device"], self._numbers())]
             if not len(found):
                 return
@@ -253,12 +255,12 @@ class Viewer:
             kind = asked.get("type") if isinstance(asked, dict) else None
             if kind == "subscribe":
                 self._subscribe(asked)
-            elif kind in ("methods", "reset_heading"):
+            elif kind in _CHANGES:
                 if not self._may_write:
                     raise HubError("this token may look, not change: a token with the scope 'write' is needed")
                 self._server.change(kind, asked)
             else:
-                raise HubError(f"message type {kind!r}: expected subscribe, methods or reset_heading")
+                raise HubError(f"message type {kind!r}: expected subscribe, {', '.join(_CHANGES)}")
             self.say({"type": "done", "id": asked.get("id"), "what": kind})
         except (PoiseError, ValueError, TypeError, KeyError, RecursionError) as problem:
             asked = locals().get("asked")

@@ -32,7 +32,7 @@ PIN = 17
 # What its builder would state of the robot: a body of 1.5 kg (it has 1.62, and up to 0.2 kg on top), its centre of mass 120 mm
 # above the axle (135 mm), wheels of 200 g on discs, motors that follow at once (20 ms).
 CONTROL = BalanceControl.design(
-    1.5, 0.12, 0.05, wheel_mass=0.2, way=0.2, speed=0.15, lean_deg=8.0, torque_limit=0.45, reach=0.1
+    1.5, 0.12, 0.05, wheel_mass=0.2, way=0.2, speed=0.15, lean_deg=8.0, torque_limit=0.45, reach=0.1, bridge=3.0
 )
 # Found with 60 pushes of seeds that no table uses: a lean that reaches 54° within 0.1 s never came back, one of 53° did once.
 # Sideways the robot stands on wheels 0.2 m apart, whose motors do not help.

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from math import atan2, cos, exp, pi, radians, sin, tau
+from math import atan2, cos, exp, hypot, pi, radians, sin, tau
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from poise.math import arrays
 from poise.simulation.worlds.world import Driver, World
 
 Floats = NDArray[np.float64]
@@ -93,15 +92,14 @@ class Balance(World):
 
     def _state(self) -> dict[str, Any]:
         physics = self.physics
-        quat = self._views["imu"][3]
-        up, forward = arrays.rotate(quat, _UP), arrays.rotate(quat, _FORWARD)
-        heading = np.array([forward[0], forward[1], 0.0]) / max(float(np.hypot(forward[0], forward[1])), 1e-9)
+        w, x, y, z = (float(number) for number in self._views["imu"][3])
+        ahead, aside = w * w - x * x + y * y - z * z, 2.0 * (x * y - w * z)  # north and east of where it looks
         velocity = physics.sensor("velocity").copy()
         return {
             "position": physics.sensor("position").copy(),
             "velocity": velocity,
-            "lean": atan2(-float(forward[2]), float(up[2])),
-            "speed": float(velocity @ heading),
+            "lean": atan2(-2.0 * (y * z + w * x), w * w - x * x - y * y + z * z),
+            "speed": float(velocity[0] * aside + velocity[1] * ahead) / max(hypot(ahead, aside), 1e-9),
             "wheels": np.array([self._left[1][0], self._right[1][0]]),
             "torques": np.array(self._torques),
             "released": self.released,
@@ -141,7 +139,7 @@ _PAYLOAD = (
     '<geom name="payload" type="box" pos="0 0 0.267" size="0.05 0.03 0.01" mass="{:.15g}" rgba="0.45 0.6 0.35 1"/>'
 )
 _RIDGE = '<geom type="capsule" fromto="{}" size="{:.5f}" rgba="0.55 0.5 0.45 1" friction="0.9 0.005 0.0002"/>'
-_UP, _FORWARD, _AXLE = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0]), np.zeros(3)
+_AXLE = np.zeros(3)
 
 
 class _Rumble:

@@ -71,7 +71,8 @@ class Physics:
         applied[:3] += force
         if at is not None:
             arm = self.data.xpos[body] + self.data.xmat[body].reshape(3, 3) @ at - self.data.xipos[body]
-            applied[3:] += np.cross(arm, force)
+            (x, y, z), (a, b, c) = arm, force  # numpy's cross takes longer than a step of the physics
+            applied[3:] += y * c - z * b, z * a - x * c, x * b - y * a
 
     def let_go(self, body: int) -> None:
         """End all that pushes *body*."""
@@ -86,6 +87,11 @@ class Physics:
 
     def render(self, width: int, height: int, camera: str) -> NDArray[np.uint8]:
         """(height, width, 3) what *camera* sees."""
+        if _screenless() and getattr(self._mujoco, "GLContext", object).__module__.endswith(".glfw"):
+            raise WorldError(
+                "no picture: mujoco draws with a screen's OpenGL, and there is no screen; it chose when it was imported, "
+                "before poise could choose: set MUJOCO_GL=osmesa (or egl) for the program"
+            )
         try:
             if (width, height) not in self._renderers:
                 self.model.vis.global_.offwidth = max(width, self.model.vis.global_.offwidth)
@@ -114,13 +120,19 @@ def model_text(name: str) -> str:
 
 
 def _mujoco() -> Any:
-    if sys.platform.startswith("linux") and not (os.environ.get("DISPLAY") or os.environ.get("MUJOCO_GL")):
+    if _screenless() and not os.environ.get("MUJOCO_GL"):
         os.environ["MUJOCO_GL"] = "osmesa" if _has_osmesa() else "egl"  # read once, when mujoco is imported
     try:
         import mujoco
     except ImportError as problem:
         raise MissingExtra(f'worlds need MuJoCo ({problem}): pip install "poise[sim]"') from None
+    except RuntimeError as problem:
+        raise WorldError(f"MuJoCo does not start ({problem}); MUJOCO_GL can be osmesa, egl or glfw") from None
     return mujoco
+
+
+def _screenless() -> bool:
+    return sys.platform.startswith("linux") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
 def _has_osmesa() -> bool:
