@@ -85,12 +85,12 @@ export class DownloadDialog {
     this.held.replaceChildren(h("h3", {}, "What this page holds"), h("p", {}, `The last minutes of ${id ?? `${count(ids.length)} devices`}, 30 rows a second: attitude, sigma, sensors, flags.`), button);
     this.recordings.replaceChildren();
     this.element.showModal();
-    if (!this.store.hello?.offers?.includes("/recordings")) return;
+    if (!this.store.hello?.recording || !this.store.hello.offers.includes("/recordings")) return;
     const answer = await this.source.get("/recordings").catch(() => null);
     if (!answer?.ok) return;
     const files = (await answer.json()) as Kept[];
     this.recordings.replaceChildren(h("h3", {}, "Recorded by the server, every sample"), ...files.map((file) => this.file(file)));
-    if (!files.length) this.recordings.append(h("p", { class: "none" }, "Nothing is finished yet: files are made when a recording ends."));
+    if (!files.length) this.recordings.append(h("p", { class: "none" }, "Nothing yet."));
   }
 
   /** A plain link cannot carry a token: the file is fetched with it and saved from here. */

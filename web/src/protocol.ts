@@ -67,7 +67,7 @@ export interface DeviceHealth {
   clock_restarts: number;
   invalid: Record<string, number>;
   resets: Record<string, number>;
-  [more: string]: unknown;
+  wait_ms?: { p50: number; p99: number };
 }
 
 export interface Health {

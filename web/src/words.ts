@@ -21,7 +21,7 @@ export const STATES: Record<string, string> = {
 };
 
 export function count(value: number): string {
-  return Math.round(value).toLocaleString("en").replaceAll(",", " ");
+  return !Number.isFinite(value) ? "–" : Math.round(value).toLocaleString("en").replaceAll(",", " ");
 }
 
 export function ago(seconds: number): string {
