@@ -1,4 +1,6 @@
-"""Closed loops in physics: `python benchmarks/loops.py [pushes|drive|slews] [--count N] [--seconds S] [--method M]`.
+"""Closed loops in physics.
+
+    python benchmarks/loops.py pushes|drive|slews [--count N] [--seconds S] [--method M] [--write]
 
 pushes: random pushes; every fall is to be detected 150 ms before the impact, nothing that recovers. drive: over bumps and
 with vibration; no alarm. slews: every nine-axis method against the truth in the same loop.
@@ -8,17 +10,24 @@ from __future__ import annotations
 
 import argparse
 import os
+import sys
+from collections.abc import Sequence
 from math import degrees, isfinite
+from pathlib import Path
 
 import numpy as np
 
+from tables import Cell, table
+
 os.environ.setdefault("GPIOZERO_PIN_FACTORY", "mock")
 
-PUSHES, DRIVE, SLEWS = 8000, 6000, 7000  # first seeds; gains and limits were chosen with seeds below 2000
+PUSHES, DRIVE, SLEWS = 8000, 9101, 9200  # first seeds; gains and limits were chosen with others
+DOCS = Path(__file__).parents[1] / "docs"
+PAGES = {"pushes": "balance.md", "drive": "balance.md", "slews": "control.md"}
 NINE_AXIS = ("truth", "self-calibrating", "two-stage", "adaptive-gain", "armband")
 
 
-def pushes(method: str, count: int) -> None:
+def pushes(method: str, count: int) -> str:
     from poise.loops.pushing import pushed
 
     leads, relays, falls, false_alarms, missed = [], [], 0, 0, 0
@@ -40,53 +49,102 @@ def pushes(method: str, count: int) -> None:
             f"impact {run.impact:.3f} s, lead {1e3 * run.lead:.0f} ms; sample to edge {1e3 * relays[-1]:.2f} ms"
         )
     short = sum(lead < 0.15 for lead in leads)
-    print(f"{count} pushes, {method}: {falls} falls, {missed} not seen before the impact, {false_alarms} false alarms")
+    rows: list[Sequence[Cell]] = [
+        ["falls", str(falls)],
+        ["not seen before the impact", str(missed)],
+        [f"false alarms in the {count - falls} that recover", str(false_alarms)],
+    ]
     if leads:
-        print(f"lead: least {1e3 * min(leads):.0f} ms, median {1e3 * np.median(leads):.0f} ms, {short} below 150 ms;")
-        print(f"sample to relay edge: median {1e3 * np.median(relays):.2f} ms, most {1e3 * max(relays):.2f} ms")
+        spread = f"least {1e3 * min(leads):.0f} ms, median {1e3 * np.median(leads):.0f} ms; {short} below 150 ms"
+        rows.append(["relay's edge to impact", spread])
+        spread = f"median {1e3 * np.median(relays):.2f} ms, most {1e3 * max(relays):.2f} ms"
+        rows.append(["sample to relay's edge", spread])
+    told = f"`python benchmarks/loops.py pushes --write`, `{method}`, seeds {PUSHES} to {PUSHES + count - 1}."
+    return f"{told}\n\n{table([f'{count} pushes', ''], rows, markdown=True)}"
 
 
-def drive(method: str, seconds: float) -> None:
+def drive(methods: Sequence[str], seconds: float, count: int) -> str:
     from poise.loops.balancing import told
     from poise.loops.driving import BUMPS, VIBRATION, driven
 
-    run = driven(method, DRIVE, seconds)
-    print(told(run))
-    print(
-        f"{run['time'][-1]:.0f} s over bumps of {1e3 * BUMPS:g} mm, {VIBRATION:g} m/s² RMS: "
-        f"{'alarm' if run.triggered else 'no alarm'}, {'fell' if run.fell else 'stood'}, "
-        f"largest lean {degrees(float(np.abs(run['lean']).max())):.1f}°"
-    )
+    rows: list[Sequence[Cell]] = []
+    for method in methods:
+        for seed in range(DRIVE, DRIVE + count):
+            run = driven(method, seed, seconds)
+            print(told(run), file=sys.stderr)
+            rows.append([
+                method, str(seed), f"{run['time'][-1]:.0f}", "fell" if run.fell else "stood", "yes" if run.triggered else "no",
+                f"{degrees(float(np.abs(run['lean']).max())):.1f}", f"{degrees(run.estimate_rms()):.2f}",
+            ])  # fmt: skip
+    columns = ["method", "seed", "s", "robot", "alarm", "largest lean, °", "estimate RMS, °"]
+    command = f"python benchmarks/loops.py drive --count {count} --seconds {seconds:g} --write"
+    told_by = f"`{command}`: ridges of {1e3 * BUMPS:g} mm, {VIBRATION:g} m/s² RMS at 45 Hz."
+    return f"{told_by}\n\n{table(columns, rows, markdown=True)}"
 
 
-def slews(count: int) -> None:
+def slews(count: int) -> str:
     from poise.loops.slewing import slewing
 
-    for method in NINE_AXIS:
-        turns = [turn for seed in range(SLEWS, SLEWS + count) for turn in slewing(method, seed=seed).turns]
-        settled = [turn.settling for turn in turns if isfinite(turn.settling)]
-        final = np.degrees([turn.final for turn in turns])
-        estimate = np.degrees([turn.estimate for turn in turns])
-        time = f"{np.median(settled):.2f} s" if settled else "-"
-        print(
-            f"{method:18} settled {len(settled):2d}/{len(turns)}, median {time}; error at the end median "
-            f"{np.median(final):.2f}°, most {final.max():.2f}°; estimate RMS {np.median(estimate):.2f}°"
-        )
+    rows: list[Sequence[Cell]] = []
+    usual = float("nan")
+    for calibrated in (True, False):
+        for method in NINE_AXIS:
+            if method == "truth" and not calibrated:
+                continue
+            turns = [
+                turn
+                for seed in range(SLEWS, SLEWS + count)
+                for turn in slewing(method, seed=seed, calibrated=calibrated).turns
+            ]
+            times = [turn.settling for turn in turns]
+            if method == "truth":
+                usual = float(np.median(times))
+            final = np.degrees([turn.final for turn in turns])
+            settled = sum(map(isfinite, times))
+            within = sum(time <= 1.2 * usual for time in times)
+            rows.append([
+                method, "yes" if calibrated else "no", f"{settled} of {len(turns)}", f"{within} of {len(turns)}",
+                f"{np.median(times):.2f}", f"{np.median(final):.2f}", f"{final.max():.2f}",
+                f"{np.median(np.degrees([turn.estimate for turn in turns])):.2f}",
+            ])  # fmt: skip
+            print(*rows[-1], sep="  ", file=sys.stderr)
+    columns = ["method", "calibrated", "settled to 2°", "in 1.2 of the truth's time", "median, s",
+               "error at the end, median °", "most °", "estimate RMS, °"]  # fmt: skip
+    seeds = f"seeds {SLEWS} to {SLEWS + count - 1}, three slews each"
+    told = f"`python benchmarks/loops.py slews --count {count} --write`: {seeds}."
+    return f"{told}\n\n{table(columns, rows, markdown=True)}"
+
+
+def write(what: str, found: str) -> None:
+    """Put *found* between the marks of *what* in its page."""
+    page = DOCS / PAGES[what]
+    text = page.read_text(encoding="utf-8")
+    begin, end = (f"<!-- {edge}: python benchmarks/loops.py {what} --write -->" for edge in ("begin", "end"))
+    before, mark, rest = text.partition(begin)
+    _, closing, after = rest.partition(end)
+    if not (mark and closing):
+        raise SystemExit(f"{page}: expected the lines {begin!r} and {end!r}")
+    page.write_text(f"{before}{begin}\n{found.strip()}\n{end}{after}", encoding="utf-8")
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("what", choices=["pushes", "drive", "slews"])
-    parser.add_argument("--count", type=int, default=100)
-    parser.add_argument("--seconds", type=float, default=1800.0)
-    parser.add_argument("--method", default="two-stage")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=[*PAGES])
+    parser.add_argument("--count", type=int, help="seeds: 100 pushes, 3 drives, 10 bodies")
+    parser.add_argument("--seconds", type=float, default=1800.0, help="of a drive")
+    parser.add_argument("--method", help="instead of two-stage, for drives also instead of self-calibrating")
+    parser.add_argument("--write", action="store_true", help="put the table into its page")
     given = parser.parse_args()
     if given.what == "pushes":
-        pushes(given.method, given.count)
+        found = pushes(given.method or "two-stage", given.count or 100)
     elif given.what == "drive":
-        drive(given.method, given.seconds)
+        methods = [given.method] if given.method else ["two-stage", "self-calibrating"]
+        found = drive(methods, given.seconds, given.count or 3)
     else:
-        slews(given.count)
+        found = slews(given.count or 10)
+    print(found)
+    if given.write:
+        write(given.what, found)
 
 
 if __name__ == "__main__":

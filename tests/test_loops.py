@@ -14,9 +14,13 @@ from poise.cli import run
 from poise.control.balance import BalanceControl, Balancer
 from poise.data.attitude import Attitude
 from poise.data.flags import Flag
-from poise.errors import MethodError
+from poise.doctor.affine import magnetometer
+from poise.errors import MethodError, RecordingError
 from poise.loops import Push, balancing, slewing
+from poise.loops.commissioning import commissioned
 from poise.loops.driving import driven
+from poise.loops.slewing import CONTROL, SENSOR
+from poise.simulation.worlds import AttitudeBody
 from programs import program
 
 # not importorskip: importing MuJoCo here would be too early for the choice of a renderer
@@ -49,10 +53,24 @@ def test_the_same_seed_gives_the_same_run() -> None:
     assert a.tobytes() == b.tobytes()
 
 
-def test_a_body_on_wheels_reaches_its_goal_by_the_truth_and_nearly_so_by_an_estimate() -> None:
-    by_truth, by_estimate = (slewing(method, seed=3, turns=1).turns[0] for method in ("truth", "adaptive-gain"))
+def test_a_commissioned_body_settles_by_an_estimate_as_by_the_truth() -> None:
+    by_truth, by_estimate = (slewing(method, seed=204, turns=1).turns[0] for method in ("truth", "self-calibrating"))
     assert by_truth.settling < 3.5 and by_truth.final < radians(0.2)
-    assert by_estimate.final < radians(10.0)  # the magnetometer is as it came: its iron is 1 µT, 3° of heading
+    assert by_estimate.settling < 1.2 * by_truth.settling and by_estimate.final < radians(2.0)
+
+
+def test_a_tumble_finds_the_iron_and_a_sensor_that_rests_is_told_to_turn() -> None:
+    world = AttitudeBody(seed=205, sensor=SENSOR, rate=200.0, hold=3.0)
+    found = commissioned(world, CONTROL)
+    real = world.devices["imu"]._mag
+    assert real is not None
+    iron = np.eye(3) + real._cross.T
+    assert np.abs(found.mag.offset - found.mag.matrix @ real.bias).max() < 0.15  # µT, of 1
+    product = found.mag.matrix @ iron
+    assert np.abs(product / np.cbrt(np.linalg.det(product)) - np.eye(3)).max() < 5e-3
+    still = world.recording()[:500]
+    with pytest.raises(RecordingError, match="magnetometer: "):
+        magnetometer(still)
 
 
 def test_without_a_valid_attitude_the_wheels_have_no_torque() -> None:

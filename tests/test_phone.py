@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
 import ssl
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
@@ -18,12 +17,13 @@ from scipy.spatial.transform import Rotation
 from websockets.sync.client import connect
 
 import poise
+from browsing import chromium, until
 from data_files import data_path
 from live_helpers import METHOD, seen, serving, wait_for
+from poise.live.address import own_addresses
 from poise.live.certificate import own_certificate
 from poise.live.methods import Choice
 
-CHROMIUM = shutil.which("chromium")
 DEVICE = "device-token-of-16"
 READ = "reading-token-of-16"
 TOKENS = {DEVICE: frozenset({"device"}), READ: frozenset({"read"})}
@@ -52,15 +52,8 @@ window.play = async (rows, speed) => {
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    if CHROMIUM is None:
-        pytest.skip("no chromium on the path (Debian: apt-get install chromium)")
-    api = pytest.importorskip("playwright.sync_api")
-    arguments = ["--no-sandbox", "--host-resolver-rules=MAP phone.test 127.0.0.1"]
-    with (
-        api.sync_playwright() as playwright,
-        playwright.chromium.launch(executable_path=CHROMIUM, args=arguments) as browser,
-    ):
-        yield browser
+    with chromium("--host-resolver-rules=MAP phone.test 127.0.0.1") as found:
+        yield found
 
 
 @pytest.fixture(scope="module")
@@ -119,11 +112,6 @@ def begin(page: Any) -> None:
     """Taps Start and waits until the phone is connected."""
     page.click("#start")
     page.wait_for_selector("#state[data-tone=good]")
-
-
-def until(page: Any, expression: str) -> None:
-    """Waits until *expression* holds; the page's policy forbids Playwright's own way of waiting."""
-    wait_for(lambda: page.evaluate(expression))
 
 
 def play(page: Any, rows: list[Any], speed: float = 4.0) -> None:
@@ -309,3 +297,16 @@ def test_a_wrong_token_and_a_hidden_page_are_told(browser: Any) -> None:
             page.click("#stop")
             assert page.text_content("#state") == "Stopped"
             wait_for(lambda: not running.server.device_sockets)
+
+
+def test_the_dashboard_shows_the_code_to_those_who_may_write(browser: Any) -> None:
+    if not own_addresses():
+        pytest.skip("this machine is in no network")
+    full = "a-token-for-all-of-it"
+    tokens = {DEVICE: frozenset({"device"}), full: frozenset({"read", "write"})}
+    with serving(host="0.0.0.0", tokens=tokens, phone_token=DEVICE) as running, browser.new_context() as context:
+        page = context.new_page()
+        page.goto(f"http://{running.address}/#token={full}")
+        page.click("#phone")
+        page.wait_for_selector("dialog[open] img")
+        until(page, "document.querySelector('dialog[open] img').naturalWidth > 0")

@@ -8,6 +8,7 @@ import type { Store } from "./store";
 import { tipWord } from "./words";
 
 const SHOWN = 3;
+const TIPPING = 3;
 
 export class Alarm {
   private element = byId("alarm");
@@ -17,7 +18,7 @@ export class Alarm {
 
   update(): void {
     const alarming = [...this.store.devices.keys()].filter((id) => ALARMING.has(this.store.tipOf(id) ?? 255));
-    const facts = alarming.map((id) => `${id} ${this.store.tipOf(id)} ${this.last(id)?.number}`).join("|");
+    const facts = this.store.link.state + alarming.map((id) => `${id} ${this.store.tipOf(id)} ${this.last(id)?.number}`).join("|");
     if (facts === this.shown) return;
     this.shown = facts;
     this.element.replaceChildren(...alarming.slice(0, SHOWN).map((id) => this.row(id)));
@@ -35,9 +36,9 @@ export class Alarm {
     const told = event?.state === ["UNKNOWN", "UPRIGHT", "LEANING", "TIPPING", "FALLEN", "FREE_FALL"][state] ? event : undefined;
     const facts = [
       typeof told?.tilt_deg === "number" ? `tilt ${told.tilt_deg.toFixed(0)}°` : "",
-      typeof told?.impact_s === "number" ? `hits the ground in ${told.impact_s.toFixed(1)} s unless caught` : "",
+      state === TIPPING && typeof told?.impact_s === "number" ? `hits the ground in ${told.impact_s.toFixed(1)} s unless caught` : "",
     ].filter(Boolean);
-    const word = tipWord(state);
+    const word = `${this.store.link.state === "open" ? "" : "was "}${tipWord(state)}`;
     return h("p", {}, h("strong", {}, `${word[0].toUpperCase()}${word.slice(1)}${told?.direction ? ` ${told.direction}` : ""}`), h("a", { href: route(id) }, id), h("span", {}, facts.join(" · ")));
   }
 }

@@ -135,7 +135,7 @@ export class Chart {
       },
       axes: [
         { stroke: ink, grid, ticks: { show: false }, size: spec.foot ? 22 : 4, font: FONT, values: (plot, splits) => (spec.foot ? this.times(plot, splits) : []), space: 70 },
-        { stroke: ink, grid, ticks: { show: false }, size: AXIS, gap: 4, font: FONT, space: 26, incrs: spec.compass ? ANGLES : undefined, values: (_, splits) => splits.map((v) => String(Number(v.toPrecision(6))).replace("-", "−")) },
+        { stroke: ink, grid, ticks: { show: false }, size: AXIS, gap: 4, font: FONT, space: 22, incrs: spec.unit === "°" ? ANGLES : undefined, values: (_, splits) => splits.map((v) => String(Number(v.toPrecision(6))).replace("-", "−")) },
       ],
       hooks: { drawClear: [(plot) => this.shade(plot)], draw: [(plot) => this.point(plot)], setCursor: [() => this.showValues()] },
     };
@@ -204,11 +204,12 @@ function wraps(plot: uPlot, index: number, first: number, last: number, found: u
   const values = plot.data[index];
   let before: number | null | undefined = null;
   let left = 0;
+  const halo = Math.ceil(1.5 * devicePixelRatio); // the width of the line
   for (let k = first; k <= last; k++) {
     const value = values[k];
     if (value === null || value === undefined) continue;
     const at = Math.round(plot.valToPos(stamps[k], "x", true));
-    if (before !== null && before !== undefined && Math.abs(value - before) > 180) found.push([left, Math.max(at, left + 1)]);
+    if (before !== null && before !== undefined && Math.abs(value - before) > 180) found.push([left - halo, at + halo]);
     before = value;
     left = at;
   }

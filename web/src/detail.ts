@@ -75,7 +75,7 @@ export class Detail {
     const state = this.readout.update(now);
     if (state) {
       this.card.classList.toggle("invalid", state.invalid !== "");
-      this.card.classList.toggle("alarming", state.tip !== null && ALARMING.has(state.tip));
+      this.card.classList.toggle("alarming", state.tip !== null && ALARMING.has(state.tip) && this.store.link.state === "open");
     }
     this.plots.update(now);
     this.link.update(now);

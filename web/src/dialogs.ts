@@ -55,7 +55,10 @@ export class PhoneDialog {
   async open(): Promise<void> {
     this.element.showModal();
     const answer = await this.source.get("/phone/qr.svg").catch(() => null);
-    if (!answer?.ok) return say(this.image, "The server has no code to show.");
+    if (!answer?.ok) {
+      const reason = await answer?.json().catch(() => null);
+      return say(this.image, (reason as { error?: string } | null)?.error ?? "The server has no code to show.");
+    }
     const picture = h("img", { alt: "QR code of the page for phones", src: URL.createObjectURL(new Blob([await answer.text()], { type: "image/svg+xml" })) });
     this.image.replaceChildren(picture);
   }

@@ -24,7 +24,7 @@ export class Events {
     if (now - this.written < EVERY) return;
     this.written = now;
     const found = this.store.events.filter((event) => this.id === null || event.device === this.id || event.device === null).slice(-SHOWN);
-    const newest = found.at(-1)?.number ?? 0;
+    const newest = found.at(-1)?.time ?? 0;
     if (newest === this.newest) return;
     this.newest = newest;
     this.list.replaceChildren(...found.reverse().map(row));

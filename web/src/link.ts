@@ -5,7 +5,7 @@ import { h, say } from "./dom";
 import type { Store } from "./store";
 import { count, STATES } from "./words";
 
-const ROWS = ["State", "Source", "Rate", "Samples", "Lost", "Repeated", "Refused", "Silences", "Delay to here", "Clock drift"] as const;
+const ROWS = ["State", "Source", "Rate", "Samples", "Lost", "Repeated", "Refused", "Silences", "Delay to here", "In the server, p99", "Clock drift"] as const;
 
 export class Link {
   readonly element: HTMLElement;
@@ -34,7 +34,8 @@ export class Link {
     this.set("Repeated", count(health.repeated));
     this.set("Refused", count(health.rejected), health.rejected > 0);
     this.set("Silences", count(health.silences));
-    this.set("Delay to here", delay === undefined ? "–" : `${fixed(1000 * delay, 0)} ms${typeof p99 === "number" ? ` · server p99 ${fixed(p99, 0)} ms` : ""}`);
+    this.set("Delay to here", delay === undefined ? "–" : `${fixed(1000 * delay, 0)} ms`);
+    this.set("In the server, p99", typeof p99 === "number" ? `${fixed(p99, 1)} ms` : "–");
     this.set("Clock drift", `${fixed(health.clock_drift_ppm, 1)} ppm`);
   }
 

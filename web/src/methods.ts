@@ -145,7 +145,7 @@ interface Field {
 function field(parameter: Parameter, settings: Settings, id: string, may: boolean): Field {
   const { name, unit, meaning, low, high, choices, kind } = parameter;
   const now = name in settings ? settings[name] : parameter.default;
-  const label = h("label", { for: id, title: meaning }, name, unit ? h("span", { class: "unit" }, ` ${unit}`) : null);
+  const label = h("label", { for: id, title: meaning }, name, unit && kind !== "choice" ? h("span", { class: "unit" }, ` ${unit}`) : null);
   const help = h("small", {}, meaning);
   const number = (which: string, value: unknown) =>
     h("input", { id: which, type: "number", step: kind === "int" ? 1 : "any", min: low, max: high, value: value ?? "", placeholder: value === null ? "none" : null, disabled: !may });

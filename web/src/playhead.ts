@@ -24,7 +24,7 @@ export class Playhead {
   }
 
   pause(): void {
-    this.seek(this.store.edge());
+    this.seek(this.store.lastSeen());
   }
 
   follow(): void {

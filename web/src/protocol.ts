@@ -31,6 +31,7 @@ export interface Hello {
   flags: Record<string, [string, string]>;
   invalid_flags: number;
   offers: string[];
+  events?: LiveEvent[];
   recording: Recording | null;
 }
 

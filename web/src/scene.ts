@@ -256,11 +256,11 @@ export class Scene {
   }
 
   look(aspect: number): void {
-    const distance = 7.8 / Math.min(1, Math.max(0.5, aspect));
+    const distance = 8.4 / Math.min(1, Math.max(0.5, aspect));
     const level = Math.cos(this.elevation);
     this.camera.position.set(Math.sin(this.azimuth) * level, -Math.cos(this.azimuth) * level, Math.sin(this.elevation)).multiplyScalar(distance);
-    this.camera.position.z -= 0.28;
-    this.camera.lookAt(0, 0, -0.28);
+    this.camera.position.z -= 0.5;
+    this.camera.lookAt(0, 0, -0.5);
     this.camera.aspect = aspect;
     this.camera.updateProjectionMatrix();
   }

@@ -65,6 +65,7 @@ export class Store implements Sink {
         this.hello = message;
         this.clock = Infinity;
         this.compareClocks(message.time);
+        this.recall(message.events ?? []);
         return this.tell("hello");
       case "devices":
         this.setDevices(message.devices);
@@ -143,6 +144,12 @@ export class Store implements Sink {
     return count;
   }
 
+  /** Events before this page came, or while it was away. */
+  private recall(past: LiveEvent[]): void {
+    const own = past.length ? this.events.filter((event) => event.time < past[0].time) : [...this.events];
+    this.events.splice(0, this.events.length, ...own, ...past);
+  }
+
   private compareClocks(server: number): void {
     this.clock = Math.min(this.clock, Date.now() / 1000 - server);
   }
@@ -158,6 +165,12 @@ export class Store implements Sink {
   edge(): number {
     if (this.instant) return this.newest;
     return this.link.state === "open" ? this.serverNow() : this.newest || this.serverNow();
+  }
+
+  /** The instant of the newest record, or now where none has come of late. */
+  lastSeen(): number {
+    const edge = this.edge();
+    return edge - this.newest < 0.5 ? this.newest : edge;
   }
 
   /** The first instant that is still held. */

@@ -12,6 +12,7 @@ export class Transport {
   private slider = h("input", { type: "range", id: "scrub", "aria-label": "Instant shown, seconds before now", max: 0, step: 0.05, value: 0 });
   private label = h("output", { for: "scrub", id: "instant" });
   private written = 0;
+  private dragged = false; // else what is shown moves into the past, and the thumb with it
 
   constructor(private store: Store, private playhead: Playhead) {
     const windows = WINDOWS.map(([seconds, text]) => {
@@ -24,6 +25,8 @@ export class Transport {
       if (back >= 0) playhead.follow();
       else playhead.seek(store.edge() + back);
     });
+    this.slider.addEventListener("pointerdown", () => (this.dragged = true));
+    for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => (this.dragged = false));
     playhead.onChange(() => this.write());
     addEventListener("keydown", (key) => {
       const target = key.target as HTMLElement;
@@ -44,7 +47,7 @@ export class Transport {
     const back = this.playhead.following ? 0 : Math.min(0, this.playhead.time - edge);
     const oldest = this.store.oldest();
     this.slider.min = String(Math.min(-1, Math.max(-KEPT - 60, Number.isFinite(oldest) ? oldest - edge : -1)));
-    if (document.activeElement !== this.slider || this.playhead.following) this.slider.value = String(back);
+    if (!this.dragged) this.slider.value = String(back);
     const text = this.playhead.following ? "now" : `${back.toFixed(1).replace("-", "−")} s`;
     say(this.label, text);
     this.slider.setAttribute("aria-valuetext", this.playhead.following ? "now" : `${(-back).toFixed(1)} seconds ago`);

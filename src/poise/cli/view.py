@@ -100,7 +100,7 @@ def _film(
 ) -> Film:
     from poise.data.attitude import Attitude
     from poise.estimators import METHODS
-    from poise.estimators.engine import estimate
+    from poise.estimators.batch import estimate
     from poise.estimators.self_calibrating.smoother import smooth
     from poise.live.film import Strip, of_attitude, of_recording
 

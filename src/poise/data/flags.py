@@ -64,7 +64,7 @@ SENTENCES: dict[Flag, str] = {
     Flag.STUCK_GYR: "the gyroscope repeats one value: taken for absent",
     Flag.STUCK_ACC: "the accelerometer repeats one value: taken for absent",
     Flag.STUCK_MAG: "the magnetometer repeats one value: taken for absent",
-    Flag.ACC_CLIPPED: "the accelerometer is at the end of its range: left out",
+    Flag.ACC_CLIPPED: "the accelerometer is at the end of its range: the force is larger than measured",
     Flag.MAG_CLIPPED: "the magnetometer is at the end of its range: left out",
     Flag.CLOCK_JUMP: "the clock was set: the usual interval is taken",
     Flag.JITTER: "a step between stamps of less than half or more than twice the usual",

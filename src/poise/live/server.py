@@ -46,6 +46,7 @@ _HEAD_START = (
     2.0  # s to load the methods before the first device is served: beside a busy loop it takes several times as long
 )
 _LIST_EVERY = 0.2  # s between lists of devices
+_PAST_EVENTS = 50  # that a viewer is told when it comes
 _SLICE = 100  # devices in one message on health: thousands would hold up a tick
 
 
@@ -306,6 +307,7 @@ class Server:
             "offers": self.offers,
             "recording": self.recorder.condition() if self.recorder else None,
             "films": len(self.films),
+            "events": list(self.hub.events)[-_PAST_EVENTS:],
         }
 
     def device_list(self) -> dict[str, Any]:

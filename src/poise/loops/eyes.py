@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,16 +27,21 @@ class Seen(NamedTuple):
 
 
 class Eyes:
-    """The estimator called *method* on the sensor of *world*; ``"truth"`` is the world's own attitude and rate."""
+    """The estimator called *method* on the sensor of *world*; ``"truth"`` is the world's own attitude and rate.
 
-    def __init__(self, method: str, world: World) -> None:
+    *corrected* is what makes a packet of one that arrived: a calibration.
+    """
+
+    def __init__(self, method: str, world: World, corrected: Callable[[Packet], Packet] | None = None) -> None:
         if method != TRUTH and method not in METHODS:
             raise MethodError(f"no method {method!r}; there are {', '.join(METHODS)}, and {TRUTH} to compare with")
-        self._world = world
+        self._world, self._corrected = world, corrected
         self._stream: Any = None if method == TRUTH else Stream(METHODS[method]())
 
     def see(self, packets: list[Packet]) -> list[Seen]:
         """The samples that arrived, each with the attitude after it."""
+        if self._corrected is not None:
+            packets = [self._corrected(packet) for packet in packets]
         return [Seen(packet, self._attitude(packet)) for packet in packets]
 
     def _attitude(self, packet: Packet) -> Attitude:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from poise.control import AttitudeControl, Controller, Slew
+from poise.loops.commissioning import REST, commissioned
 from poise.loops.eyes import Eyes
 from poise.math import arrays
 from poise.simulation.worlds import AttitudeBody
@@ -74,21 +75,25 @@ def slewing(
     sensor: str = SENSOR,
     control: AttitudeControl = CONTROL,
     slew: Slew | None = SLEW,
+    calibrated: bool = True,
 ) -> SlewingRun:
-    """Send a body to *turns* attitudes, each 120° about a random axis from the one before, by what *method* sees."""
-    world = AttitudeBody(seed=seed, sensor=sensor, rate=200.0)
+    """Send a body to *turns* attitudes, each 120° about a random axis from the one before, by what *method* sees.
+
+    Unless *calibrated* is False, the device is commissioned before; the method starts anew after that, and time with it.
+    """
+    world = AttitudeBody(seed=seed, sensor=sensor, rate=200.0, hold=REST)
+    calibration = commissioned(world, control) if calibrated else None
     random = np.random.default_rng([seed, 7])
-    eyes, controller = Eyes(method, world), Controller(control, slew)
-    goal, torque, said = world.truth.quat, np.zeros(3), world.truth.quat
-    rows, asked = [], _BEGIN
-    end = _BEGIN + turns * _EACH
-    controller.hold(goal)
+    eyes, controller = Eyes(method, world, calibration), Controller(control, slew)
+    goal = said = np.full(4, np.nan)
+    torque, rows, asked, began = np.zeros(3), [], _BEGIN, world.time
+    end = began + _BEGIN + turns * _EACH
     while world.time < end - 1e-9:
-        if world.time >= asked - 1e-9:
+        if world.time >= began + asked - 1e-9:
             axis = random.standard_normal(3)
             half = 0.5 * ANGLE
             turn = np.concatenate([[np.cos(half)], np.sin(half) * axis / np.linalg.norm(axis)])
-            goal = arrays.multiply(goal, turn)
+            goal = arrays.multiply(said if np.isnan(goal[0]) else goal, turn)
             controller.hold(goal)
             asked += _EACH
         for seen in eyes.see(world.step(torque)):
@@ -96,7 +101,7 @@ def slewing(
             torque = answer if world.released else np.zeros(3)
             said = seen.attitude.quat[0]
         true = world.truth.quat
-        rows.append([world.time, _angle(goal, true), _angle(said, true), *torque])
+        rows.append([world.time - began, _angle(goal, true), _angle(said, true), *torque])
     table = np.array(rows)
     time, error, estimate = table[:, 0], table[:, 1], table[:, 2]
     return SlewingRun(method, seed, time, error, estimate, table[:, 3:], tuple(_turns(time, error, estimate, turns)))

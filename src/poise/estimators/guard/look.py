@@ -70,7 +70,7 @@ class Look(NamedTuple):
     flags: int
 
 
-_EMPTY = fresh(ZERO, Limits(0.0, 0.0, 0.0, 0.0))
+_EMPTY = fresh(ZERO, Limits(0.0, 0.0, 0.0, 0.0, 0.0))
 NOTHING = Look(
     _EMPTY, _EMPTY, _EMPTY, UNKNOWN, Sample(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, 0.0, 0.0, 0.0),
     False, False, False, False, 0.0, 0.0, 0.0, False, 0.0, 0,
@@ -143,7 +143,7 @@ def examined(guard: Guard, state: State, sample: Sample) -> Look:
     turning = _across(gyr.value, acc.value) > REST_RATE
     found = judged(acc, sample.acc, acc_age, spiked and not shaken, turning, still, guard.stuck_time, of_acc)
     acc, acc_verdict = found.channel, found.verdict
-    has_acc = present(found.value) and acc_verdict != CLIPPED
+    has_acc = present(found.value)
     turning = _across(gyr.value, mag.value) > REST_RATE
     spiked = state.mag_seen and jumped(mag, by_mag, mag_age, usual_step, of_mag)
     if not state.mag_seen and mag.most == 0.0 and present(sample.mag):
@@ -277,17 +277,17 @@ def _across(rate: Vec3, v: Vec3) -> float:
 @compiled
 def gyr_limits(guard: Guard) -> Limits:
     """A jump of 3 rad/s between two samples is beyond limbs and robots; no gyroscope ends below 125 deg/s."""
-    return Limits(3.0, 2.1, -1.0, guard.largest_gyr)
+    return Limits(3.0, 1.0, 2.1, -1.0, guard.largest_gyr)
 
 
 @compiled
 def acc_limits(guard: Guard) -> Limits:
-    """A jump of 4 g takes a blow; no accelerometer ends below 2 g."""
-    return Limits(4.0 * guard.gravity, 18.0, 1e-6, guard.largest_acc)
+    """A jump of 4 g takes a blow; few accelerometers end below 2 g; at rest none shows more than g and its own error."""
+    return Limits(4.0 * guard.gravity, 1.1 * guard.gravity, 18.0, 1e-6, guard.largest_acc)
 
 
 @compiled
 def mag_limits(guard: Guard, last: Vec3) -> Limits:
     """Whatever its unit: a jump is as long as the field itself, and no range ends below twice that of the Earth."""
     length = norm(last)
-    return Limits(length, 2.0 * length, 1e-18, guard.largest_mag)
+    return Limits(length, 2.0 * length, 2.0 * length, 1e-18, guard.largest_mag)
