@@ -195,7 +195,7 @@ def test_the_elbow_of_the_simulated_arm_is_the_truths() -> None:
     from poise.simulation import worlds
 
     source = Simulated("arm", 4.0, seed=4)
-    with serving(source, methods=("self-calibrating",)) as live:
+    with serving(source) as live:
         live.call(lambda: live.hub.set_joint("elbow", "forearm", "upper_arm"))
         found: list[Any] = []
         live.call(lambda: live.hub.joints.on_rows.append(lambda joint, attitude, records: found.append(attitude)))
