@@ -30,7 +30,7 @@ UNITS = {"gyr in deg/s": "gyr=deg/s", "acc in g": "acc=g", "acc in mg": "acc=mg"
 
 
 class Counts(NamedTuple):
-    """Of the mistakes made in one sensor's axes of one recording."""
+    """Of the mistakes made in the axes of one recording."""
 
     right: int
     """named with their fix, after which the recording is the original, but for a rotation common to all sensors"""
@@ -40,6 +40,8 @@ class Counts(NamedTuple):
     """told that it cannot be told"""
     wrong: int
     """a fix said to be sure that is not right, or nothing said at all"""
+    upside_down: int = 0
+    """a fix said to be sure, or nothing said, and acc and mag both negated: no motion and no dip tells"""
 
     def __add__(self, other: Counts) -> Counts:  # type: ignore[override]
         return Counts(*(a + b for a, b in zip(self, other, strict=True)))
@@ -71,13 +73,20 @@ def same(one: Recording, other: Recording) -> bool:
 def count(original: Recording, wrong: Recording) -> Counts:
     """What becomes of one mistake."""
     found = diagnose(wrong, thorough=False)
-    if found.repairs:
-        right = same(found.repair(wrong), original)
-        return Counts(int(right), 0, 0, int(not right))
-    if found.found("sure"):
+    if not found.repairs and found.found("sure"):
         return Counts(0, 1, 0, 0)
-    told = found.found("cannot-tell") or found.found("likely")
-    return Counts(0, 0, int(bool(told)), int(not told))
+    if not found.repairs and (found.found("cannot-tell") or found.found("likely")):
+        return Counts(0, 0, 1, 0)
+    repaired = found.repair(wrong)
+    if found.repairs and all(f.fix and f.decided for f in found.found("sure")) and same(repaired, original):
+        return Counts(1, 0, 0, 0)
+    if not found.repairs.axes and (axes := [f for f in found.findings if f.name.endswith(("axes", "sign"))]):
+        known = (
+            axes[0].severity == "sure"
+        )  # a unit repaired: of the axes it says that they are wrong, or cannot be told
+        return Counts(0, int(known), int(not known), 0)
+    negated = same(repaired.with_samples(acc=-repaired.acc, mag=-repaired.mag), original)
+    return Counts(0, 0, 0, int(not negated), int(negated))
 
 
 def of_axes(recording: Recording, sensor: str, every: int) -> Counts:
@@ -86,6 +95,37 @@ def of_axes(recording: Recording, sensor: str, every: int) -> Counts:
     for matrix in signed_axes()[1::every]:
         total += count(recording, recording.remap(words(matrix), sensor))
     return total
+
+
+def of_pairs(recording: Recording, kind: str, number: int, rng: np.random.Generator) -> Counts:
+    """*number* pairs of wrong sensors: both renamed, both turned, one renamed and one negated; or one renamed, gyr in deg/s."""
+    total, every = Counts(0, 0, 0, 0), signed_axes()
+    for _ in range(number):
+        one, two = rng.choice(("gyr", "acc", "mag"), 2, replace=False)
+        i, j = rng.integers(1, 24 if kind == "both turned" else 48, 2)
+        wrong = recording.remap(words(every[i]), one)
+        if kind == "one renamed, gyr in deg/s":
+            wrong = mistaken(wrong, "gyr in deg/s")
+        else:
+            wrong = wrong.remap("-x -y -z" if kind == "one renamed, one negated" else words(every[j]), two)
+        total += count(recording, wrong)
+    return total
+
+
+PAIRS = ("both turned", "both renamed", "one renamed, one negated", "one renamed, gyr in deg/s")
+
+
+def print_pairs(number: int, seed: int, *, markdown: bool) -> None:
+    """What becomes of *number* pairs of each kind in every recording."""
+    rng = np.random.default_rng(seed)
+    found = dict.fromkeys(PAIRS, Counts(0, 0, 0, 0))
+    for _, path in recordings():
+        recording = read(path)
+        for kind in PAIRS:
+            found[kind] += of_pairs(recording, kind, number, rng)
+    print(heading("Two mistakes at once", markdown=markdown))
+    names = ["two mistakes", "pairs", "named", "refused", "cannot tell", "wrong", "wrong, but upside down alike"]
+    print(table(names, [[kind, sum(each), *each] for kind, each in found.items()], markdown=markdown))
 
 
 def turns(found: Diagnosis) -> bool:
@@ -119,7 +159,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--markdown", action="store_true")
     parser.add_argument("--every", type=int, default=1, help="only every n-th way to name the axes")
+    parser.add_argument("--pairs", type=int, help="only this many pairs of mistakes of each kind in every recording")
+    parser.add_argument("--seed", type=int, default=0, help="of the pairs")
     options = parser.parse_args()
+    if options.pairs:
+        print_pairs(options.pairs, options.seed, markdown=options.markdown)
+        return
     rows, units_right, units_all, alarms, costs = [], 0, 0, 0, []
     sums: dict[tuple[str, bool], Counts] = {}
     for half, path in recordings():
@@ -137,7 +182,7 @@ def main() -> None:
         for sensor in ("gyr", "acc", "mag"):
             found = of_axes(recording, sensor, options.every)
             sums[half, every] = sums.get((half, every), Counts(0, 0, 0, 0)) + found
-            cells.append(" / ".join(map(str, found)))
+            cells.append(" / ".join(map(str, found[:4])))
         late = [f.fix.delays.get("mag") for f in diagnose(recording).findings if f.name == "mag delay"]
         delay = f"{1e3 * late[0]:.1f}" if late and late[0] is not None else "-"
         rows.append(
@@ -158,7 +203,7 @@ def main() -> None:
     lines = []
     for (half, every), found in sorted(sums.items()):
         share = found.right / max(sum(found), 1)
-        lines.append([half, "yes" if every else "no", sum(found), *found, f"{share:.1%}"])
+        lines.append([half, "yes" if every else "no", sum(found), *found[:4], f"{share:.1%}"])
     names = ["half", "turns about every axis", "mistakes", "named", "refused", "cannot tell", "wrong", "share named"]
     print(table(names, lines, markdown=options.markdown))
     slowest, size = max(costs)

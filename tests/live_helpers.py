@@ -79,11 +79,11 @@ def serving(
     *sources: Any, methods: tuple[str, ...] = (METHOD,), recorder: Any = None, **options: Any
 ) -> Iterator[Running]:
     """A running server, its methods compiled."""
-    max_rate, watch = options.pop("max_rate", 5000.0), options.pop("watch", None)
+    max_rate, watch, films = options.pop("max_rate", 5000.0), options.pop("watch", None), options.pop("films", ())
     choices = tuple(Choice.of(name) for name in methods)
     for choice in choices:
         choice.warm()
-    server = Server(Hub(choices, max_rate, watch), sources, Options(port=0, **options), recorder)
+    server = Server(Hub(choices, max_rate, watch), sources, Options(**{"port": 0, **options}), recorder, films)
     loops: list[asyncio.AbstractEventLoop] = []
     up = threading.Event()
     failures: list[BaseException] = []

@@ -253,6 +253,17 @@ def test_relative_to_subtracts_the_rates_in_this_body() -> None:
     np.testing.assert_allclose(found.rate, this.rate - others_rate_here, atol=1e-12)
 
 
+def test_relative_to_has_the_spread_of_both_about_the_others_axes() -> None:
+    random = np.random.default_rng(3)
+    this, other = random.uniform(0.001, 0.01, (2, 3))
+    base, body = Rotation.random(2, rng=random)
+    mine, theirs = (Rotation.from_rotvec(random.normal(0.0, sigma, (40_000, 3))) for sigma in (this, other))
+    turns = (theirs * base).inv() * (mine * body) * (base.inv() * body).inv()
+    first, second = made(wxyz(body)[None]), made(wxyz(base)[None])
+    first.sigma[:], second.sigma[:] = this, other
+    np.testing.assert_allclose(first.relative_to(second).sigma[0], turns.as_rotvec().std(axis=0), rtol=0.02)
+
+
 def test_relative_to_takes_the_other_at_this_ones_times_and_both_flags() -> None:
     slow = made(turned(*range(0, 100, 10)), step=0.2)
     fast = made(turned(*range(0, 91, 5)), step=0.1)

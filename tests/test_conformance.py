@@ -379,3 +379,29 @@ def boom(time: Floats, gyr: Floats, acc: Floats, mag: Floats) -> Any:
 def test_what_cannot_be_run_says_why(estimator: Any, says: str) -> None:
     with pytest.raises(MethodError, match=says):
         conform(estimator)
+
+
+def gyroscope_alone(time: NDArray[np.float64], gyr: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Adds up turns from the identity; the reverse direction."""
+    turn = Rotation.from_rotvec(np.vstack([np.zeros((1, 3)), np.diff(time)[:, None] * gyr[1:]]))
+    quat = [turn[0]]
+    for each in turn[1:]:
+        quat.append(quat[-1] * each)
+    return np.array([q.inv().as_quat() for q in quat])
+
+
+def test_of_a_gyroscope_alone_the_earth_frame_cannot_be_told() -> None:
+    found = conform(gyroscope_alone, name="named")
+    assert found.verdict == "conforms" and not found["Earth frame"].told
+    assert "up and heading: cannot tell" in found.summary
+    told = found.convention
+    assert (told["order"], told["direction"], told["gyr"]) == ("xyzw", "Earth to body", "rad/s")
+    assert told["frame"] is None and told["vertical"] is None and told["uses"] == ["gyr", "time"]
+    assert "ENU" not in found.adapter and "Attitude" not in found.adapter
+    recording = measure(forearm(10.0, 100.0, seed=8), PERFECT)
+    names: dict[str, Any] = {"mine": gyroscope_alone}
+    exec(found.adapter.replace("estimator = named", "estimator = mine"), names)
+    assert recording.truth is not None
+    true = Rotation.from_quat(recording.truth.quat[:, [1, 2, 3, 0]])
+    apart = (names["turned"](recording).inv() * (true[0].inv() * true)).magnitude()
+    assert np.degrees(apart).max() < 1.0

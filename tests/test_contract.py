@@ -384,6 +384,32 @@ def test_the_heading_says_until_when_it_is_arbitrary(method: Any) -> None:
 
 
 @every_method
+@pytest.mark.parametrize(
+    "motion", [at_rest(duration=8.0, rate=RATE), forearm(8.0, RATE, seed=3)], ids=["rest", "forearm"]
+)
+def test_a_field_along_gravity_tells_no_heading(method: Any, motion: Any) -> None:
+    for iron in (0.0, 1.5):  # µT: what is left of the sensor's own, which would be north
+        recording = measure(motion, replace(PERFECT, mag_delay=0.0), field=(iron, 0.0, -55.0), seed=3)
+        attitude = poise.estimate(method, recording)
+        unknown = (attitude.flags & np.uint32(Flag.HEADING_ARBITRARY)) != 0
+        assert unknown[attitude.time > 1.5].all()
+        assert np.nanmax(np.degrees(poise.evaluate(attitude, recording).inclination)) < 30.0
+
+
+@every_method
+def test_after_a_field_along_gravity_the_heading_is_found(method: Any) -> None:
+    if not has_heading(method):
+        pytest.skip("has no heading")
+    motion = at_rest(duration=20.0, rate=RATE)
+    poles, north = (measure(motion, PERFECT, field=(0.0, h, -45.0), seed=3) for h in (0.0, 20.0))
+    later = poles.time > 8.0
+    attitude = poise.estimate(method, poles.with_samples(mag=np.where(later[:, None], north.mag, poles.mag)))
+    unknown = (attitude.flags & np.uint32(Flag.HEADING_ARBITRARY)) != 0
+    assert unknown[~later].all() and not unknown[poles.time > 10.0].any()
+    assert np.degrees(poise.evaluate(attitude, north).heading[-1]) < 3.0
+
+
+@every_method
 def test_gravity_is_the_recordings(method: Any) -> None:
     moon = measure(at_rest(random_quats(1, 8)[0], 30.0, RATE), PERFECT, gravity=1.62)
     wrong = random_quats(1, 9)[0]

@@ -73,6 +73,40 @@ def test_renamed_axes_of_one_sensor_are_put_right(trial: str) -> None:
             assert same_up_to_a_rotation(found.repair(wrong), recording)
 
 
+def test_a_repair_of_one_sensor_is_sure_only_where_two_wrong_ones_cannot_look_like_it(turned: Recording) -> None:
+    mended = diagnose(turned.remap("y x z", "gyr"), thorough=False)
+    assert mended.options() == '--remap "gyr=y x z"'
+    negated = turned.remap("y x z", "gyr").remap("-x -y -z", "acc")  # the dip tells that something else is wrong, too
+    found = diagnose(negated, thorough=False)
+    assert (
+        names(found, "sure") == ["gyr axes"]
+        and not found.repairs
+        and "--hemisphere south" in found.findings[0].sentence
+    )
+    assert diagnose(negated, thorough=False, hemisphere="south").repairs
+    half = diagnose(turned.remap("-x -y z", "gyr"), thorough=False)  # as acc and mag that both lack the sign of z
+    assert names(half, "sure") == ["gyr axes"] and not half.repairs
+    assert 'both as "x y -z"' in half.findings[0].sentence and half.findings[0].fix.axes == {"gyr": "-x -y z"}
+
+
+def test_where_one_sensor_hardly_tells_a_second_wrong_one_may_hide_in_it() -> None:
+    recording = poise.read(data_path("broad", "27_disturbed_phone_vibration_B.mat"))
+    wrong = recording.remap("y x -z", "gyr").remap("-x y -z", "acc")
+    found = diagnose(wrong, thorough=False)
+    assert names(found, "sure") and not found.repairs
+
+
+@pytest.mark.parametrize("trial", TRIALS)
+def test_of_two_wrong_sensors_no_sure_repair_is_wrong(trial: str) -> None:
+    recording = poise.read(data_path("broad", f"{trial}.mat"))
+    rng = np.random.default_rng(int(trial[:2]) + 100)
+    for _ in range(12):
+        (one, two), (i, j) = rng.choice(("gyr", "acc", "mag"), 2, replace=False), rng.integers(1, 24, 2)
+        wrong = recording.remap(words(signed_axes()[i]), one).remap(words(signed_axes()[j]), two)
+        found = diagnose(wrong, thorough=False)
+        assert found.found("sure") and (not found.repairs or same_up_to_a_rotation(found.repair(wrong), recording))
+
+
 @pytest.mark.parametrize("make", [forearm, phone, robot])
 @pytest.mark.parametrize("seed", range(3))
 def test_made_recordings_are_clean(make: Any, seed: int) -> None:

@@ -46,14 +46,16 @@ def test_the_ten_lines_print_attitudes(address: str) -> None:
 def test_curl(address: str) -> None:
     if shutil.which("curl") is None:
         pytest.skip("curl is not installed")
-    (command,) = (line for line in blocks("sh")[-1].splitlines() if line.startswith("curl"))
+    (command,) = (line for block in blocks("sh") for line in block.splitlines() if line.startswith("curl"))
     shell = command.partition("#")[0].replace("127.0.0.1:8760", address)
     answer = subprocess.run(shell, shell=True, capture_output=True, text=True, check=True, timeout=30)
     assert '"quat_wxyz":[' in answer.stdout
 
 
 def test_the_descriptions_are_descriptions() -> None:
-    text, binary = (Description.of(tomllib.loads(block)) for block in blocks("toml"))
+    text, binary, ble = (Description.of(tomllib.loads(block)) for block in blocks("toml"))
+    assert ble.characteristic.startswith("0000a001-")
+    assert (ble.layout, ble.sync) == ("<hhhhhh", b"")
     assert text.device == "glove"
     assert binary.layout == "<hhhhhh"
 

@@ -45,8 +45,8 @@ _HOME = {
     "compare": "poise.comparison",
     "conform": "poise.conformance",
     "diagnose": "poise.doctor",
-    "estimate": "poise.estimators.engine",
-    "estimate_chunks": "poise.estimators.engine",
+    "estimate": "poise.estimators.batch",
+    "estimate_chunks": "poise.estimators.batch",
     "estimate_file": "poise.file_to_file",
     "evaluate": "poise.evaluation",
     "lqr": "poise.control.design",
@@ -83,9 +83,9 @@ if TYPE_CHECKING:
     from poise.estimators import METHODS as METHODS
     from poise.estimators.adaptive_gain import AdaptiveGain as AdaptiveGain
     from poise.estimators.armband import Armband as Armband
+    from poise.estimators.batch import estimate as estimate
+    from poise.estimators.batch import estimate_chunks as estimate_chunks
     from poise.estimators.engine import Stream as Stream
-    from poise.estimators.engine import estimate as estimate
-    from poise.estimators.engine import estimate_chunks as estimate_chunks
     from poise.estimators.gated import Gated as Gated
     from poise.estimators.guard import Guard as Guard
     from poise.estimators.rest_bias import RestBias as RestBias

@@ -14,7 +14,9 @@ import numpy as np
 from poise.data.attitude import Attitude, HeadingReference
 from poise.data.recording import Recording
 from poise.errors import FormatError, PoiseError
-from poise.estimators.engine import Stream, at_gravity, feed
+from poise.estimators.batch import feed
+from poise.estimators.engine import Stream
+from poise.estimators.wrapping import at_gravity
 from poise.formats import writing
 from poise.formats.chunks import Chunks
 from poise.formats.limits import Limits

@@ -22,6 +22,7 @@ from poise.cli.respond import respond
 from poise.cli.simulate import simulate
 from poise.cli.sniff import sniff
 from poise.cli.tipover import tipover
+from poise.cli.view import view
 
 app = App(
     name="poise",
@@ -45,6 +46,7 @@ app.command(tipover)
 app.command(respond)
 app.command(sniff)
 app.command(live)
+app.command(view)
 app.command(recover)
 app.command(methods)
 app.command(demo)

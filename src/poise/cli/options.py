@@ -223,7 +223,7 @@ class Running:
         progress: Callable[[int], None] | None = None,
         learning: float | None = None,
     ) -> Attitude:
-        from poise.estimators.engine import estimate
+        from poise.estimators.batch import estimate
 
         known: dict[str, Any] = {"start_from": self.before(), "learning": learning, "progress": progress}
         if self.offline:

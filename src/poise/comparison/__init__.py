@@ -82,8 +82,9 @@ def compare(
 
 
 def _run(name: str, estimator: Any, recording: Recording) -> Run:
-    from poise.estimators.engine import estimate
+    from poise.estimators.batch import estimate
     from poise.estimators.parameters import as_dict
+    from poise.estimators.wrapping import core
 
     has_heading, run = True, Run(name, "method", {})
     try:
@@ -99,7 +100,7 @@ def _run(name: str, estimator: Any, recording: Recording) -> Run:
             run = replace(run, settings=settings | {"prepared": attitude.provenance.parameters.get("prepared", [])})
         else:
             run = Run(name, "method", as_dict(estimator) if hasattr(estimator, "_fields") else {})
-            has_heading = hasattr(_core(estimator), "declination")
+            has_heading = hasattr(core(estimator), "declination")
             attitude = estimate(estimator, recording)
     except PoiseError as problem:
         return replace(run, failure=str(problem))
@@ -183,13 +184,3 @@ def _without_majority(recording: Recording, runs: list[Run], limit_deg: float) -
 def _why_nothing(attitude: Attitude) -> str:
     reasons = attitude.reasons()
     return f"no row has an attitude: {reasons[0].sentence}" if reasons else "no row has an attitude"
-
-
-def _core(method: Any) -> Any:
-    """The method inside its wrappers."""
-    from poise.estimators.guard import Guard
-    from poise.estimators.rest_bias import RestBias
-
-    while isinstance(method, (Guard, RestBias)):
-        method = method.method
-    return method

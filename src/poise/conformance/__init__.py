@@ -70,7 +70,7 @@ def _told(found: Examined, name: str, imported: str) -> Conformance:
     question, second = runner_up(found, answers)
     frame = fit.frame if heading else vertical_words(fit) + ", heading arbitrary"
     if not found.hears["acc"]:
-        frame = "the frame of its start"
+        frame = "a frame of its own (up and heading: cannot tell)"
     by = {f.question: f.answer for f in answers}
     arrow = f"{frame} to body" if fit.reading.inverse else f"body to {frame}"
     summary = (

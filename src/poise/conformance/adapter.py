@@ -12,18 +12,26 @@ def adapter(found: Examined, name: str, imported: str, heading: bool) -> str:
     """A function from a recording to its attitude, as Python source; *imported* makes ``estimator``."""
     assert found.choice
     feed, fit = found.choice.trial.feed, found.choice.fit
+    upright = found.hears["acc"]
+    frame = (
+        "ENU"
+        if heading
+        else "z up, heading arbitrary"
+        if upright
+        else "its own at the first row, for up cannot be told"
+    )
     lines = [
         "import numpy as np",
         "from scipy.spatial.transform import Rotation",
         "",
-        "import poise",
+        *(["import poise"] if upright else []),
         "from poise.conformance import outputs",
         "",
         imported,
         "",
         "",
-        "def attitude(recording):",
-        f'    """The attitude by {name} of a poise.Recording: body to ENU."""',
+        f"def {'attitude' if upright else 'turned'}(recording):",
+        f'    """The {"attitude" if upright else "turn"} by {name} of a poise.Recording: body to {frame}."""',
         f"    gyr = {_gyr(feed)}",
         f"    acc = {_acc(feed)}",
         f"    mag = {'-' * (feed.mag_sign < 0)}recording.mag",
@@ -32,7 +40,7 @@ def adapter(found: Examined, name: str, imported: str, heading: bool) -> str:
     ]
     if fit.reading.inverse:
         lines.append("    turn = turn.inv()  # Earth to body → body to Earth")
-    if fit.nearest != 0:
+    if fit.nearest != 0 and upright:
         what = f"{fit.frame} → ENU" if heading else "z up"
         lines.append(f"    turn = Rotation.from_matrix({_matrix(fit.nearest)}).inv() * turn  # {what}")
     if heading and abs(fit.turn_about_up) >= 1.0:
@@ -44,6 +52,8 @@ def adapter(found: Examined, name: str, imported: str, heading: bool) -> str:
         lines.append(
             f"    turn = turn * Rotation.from_matrix({_matrix(fit.body)}).inv()  # its body axes → the sensor's"
         )
+    if not upright:
+        return "\n".join([*lines, "    return turn[0].inv() * turn"]) + "\n"
     reference = "magnetic" if heading else "arbitrary"
     lines.append(
         f'    return poise.Attitude.of(recording.time, turn.as_quat()[:, [3, 0, 1, 2]], heading_reference="{reference}")'

@@ -89,7 +89,7 @@ def _makes(found: list[inspect.Parameter]) -> bool:
 
 
 def _estimated(method: Any, fed: Recording) -> Any:
-    from poise.estimators.engine import estimate
+    from poise.estimators.batch import estimate
 
     return estimate(method, fed).quat
 

@@ -77,10 +77,10 @@ def _direction(found: Examined) -> Finding:
 
 def _earth(found: Examined) -> Finding:
     fit, question = _fit(found), "Earth frame"
-    if not found.hears["acc"] and not found.hears["mag"]:
-        return Finding(
-            question, "that of the start", "the gyroscope alone: nothing else moves the output", fit.residual
-        )
+    if not found.hears["acc"]:
+        others = "a field alone does" if found.hears["mag"] else "a gyroscope alone does"
+        evidence = f"{others} not tell which way is up: the output turns as the truth does, from wherever it starts"
+        return Finding(question, CANNOT_TELL, evidence, fit.residual)
     if not heading_known(found):
         return Finding(question, f"{vertical_words(fit)}, heading arbitrary", _heading_evidence(found), fit.residual)
     snapped = [(_snapped(found, q), frames.earth_name(m)) for q, m in zip(frames.QUATS, frames.MATRICES, strict=True)]
@@ -97,7 +97,6 @@ def vertical_words(fit: Fit) -> str:
 
 
 def _heading_evidence(found: Examined) -> str:
-    why = "the magnetometer changes nothing" if found.hears["acc"] else "the accelerometer changes nothing"
     fit = _fit(found)
     assert found.choice and found.choice.trial.answer
     first = fit.reading.quat(found.choice.trial.answer.values[:1])
@@ -105,7 +104,7 @@ def _heading_evidence(found: Examined) -> str:
     axis = int(np.argmax(np.abs(fit.up)))
     forward, left = matrix[(axis + 1) % 3, 0], matrix[(axis + 2) % 3, 0]
     heading = np.degrees(np.arctan2(left, forward))
-    return f"{why}; body x starts at {heading:.0f}° from the frame's {'xyz'[(axis + 1) % 3]}"
+    return f"the magnetometer changes nothing; body x starts at {heading:.0f}° from the frame's {'xyz'[(axis + 1) % 3]}"
 
 
 def _body(found: Examined) -> Finding:

@@ -246,7 +246,8 @@ class Attitude:
     def relative_to(self, other: Attitude) -> Attitude:
         """This body's orientation seen from the body of *other* (a joint's angle), at this attitude's times.
 
-        The Earth frame cancels, and with it every error the two share; a heading offset between them does not.
+        The Earth frame cancels, and with it every error the two share; a heading offset between them does not. Sigma is
+        about the axes of the other body, from both as if their errors were independent.
         """
         if self.frame != other.frame:
             raise RecordingError(f"frames differ: {self.frame} and {other.frame}; convert one with .to()")
@@ -255,6 +256,8 @@ class Attitude:
         table = np.full_like(self.table, np.nan)
         table[:, QUAT] = arrays.continuous(quat)
         table[:, RATE] = self.rate - arrays.rotate(arrays.conjugate(quat), base.rate)
+        variance = self.sigma**2 + base.sigma**2
+        table[:, SIGMA] = np.sqrt(np.einsum("nji,nj->ni", arrays.matrix(base.quat) ** 2, variance))
         return replace(self, table=table, flags=self.flags | base.flags, frame="body", heading_reference="arbitrary")
 
     def resample(self, time: ArrayLike, max_gap: float = 1.0) -> Attitude:

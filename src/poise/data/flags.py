@@ -44,7 +44,7 @@ SENTENCES: dict[Flag, str] = {
     Flag.INITIALISING: "no attitude yet: no usable accelerometer sample so far",
     Flag.GYR_MISSING: "no usable gyroscope sample: predicted with the last rate",
     Flag.ACC_MISSING: "no accelerometer sample for a while: the inclination rests on the gyroscope alone",
-    Flag.MAG_MISSING: "no magnetometer sample for a while: the heading rests on the gyroscope alone",
+    Flag.MAG_MISSING: "no magnetometer sample that tells a heading for a while: it rests on the gyroscope alone",
     Flag.TIME_DISORDER: "time stamp missing or not after the one before: taken for the usual interval, or held",
     Flag.GAP: "gap in the time stamps: the motion inside it is unknown",
     Flag.LOST: "the rotation was not measured for too long: the attitude is unknown",
@@ -52,7 +52,9 @@ SENTENCES: dict[Flag, str] = {
     Flag.SILENT: "no sample has arrived in time: the attitude now is unknown",
     Flag.REST: "at rest: the gyroscope's bias is being measured",
     Flag.ACC_DOUBTED: "specific force far from gravity: the accelerometer counts less",
-    Flag.HEADING_ARBITRARY: "no magnetometer sample since the start: the heading counts from where it started",
+    Flag.HEADING_ARBITRARY: (
+        "no magnetometer sample since the start, or a field along gravity: the heading counts from where it started"
+    ),
     Flag.START_IN_MOTION: "started in motion: the angles of one sample, which may be far off",
     Flag.MAG_DISTURBED: "the field here differs from what was learned of it: the magnetometer counts less",
     Flag.GYR_CLIPPED: "the rate is at the end of the gyroscope's range: the turn is larger than measured",
@@ -62,7 +64,7 @@ SENTENCES: dict[Flag, str] = {
     Flag.STUCK_GYR: "the gyroscope repeats one value: taken for absent",
     Flag.STUCK_ACC: "the accelerometer repeats one value: taken for absent",
     Flag.STUCK_MAG: "the magnetometer repeats one value: taken for absent",
-    Flag.ACC_CLIPPED: "the accelerometer is at the end of its range: left out",
+    Flag.ACC_CLIPPED: "the accelerometer is at the end of its range: the force is larger than measured",
     Flag.MAG_CLIPPED: "the magnetometer is at the end of its range: left out",
     Flag.CLOCK_JUMP: "the clock was set: the usual interval is taken",
     Flag.JITTER: "a step between stamps of less than half or more than twice the usual",

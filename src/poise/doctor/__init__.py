@@ -174,10 +174,36 @@ def _wrong(
         )
         return Finding("axes", "sure", text, correction, decided=False)
     text = f"the {_SENSORS[answer.sensor]}'s axes do not fit the others' {clear}; \"{axes.words(fix.matrix)}\" of its own do"
-    if answer.sensor != "gyr":
-        assumed = f"the sign by the dip of {_dip(fix.cosine):+.0f}°, {hemisphere}ern hemisphere assumed"
-        text += f"; {assumed}" if fix.decided else "; its sign cannot be told, the dip is too small"
-    return Finding(name, "sure", text, correction, decided=fix.decided)
+    if answer.sensor != "gyr" and fix.decided:
+        trusted = "acc taken for specific force" if answer.sensor == "mag" else "mag's sign taken for right"
+        text += f"; the sign by the dip of {_dip(fix.cosine):+.0f}°, {hemisphere}ern hemisphere assumed and {trusted}"
+    doubt = _doubt(answer, fix, verdict, hemisphere)
+    return Finding(name, "sure", text + (f"; but {doubt}" if doubt else ""), correction, decided=not doubt)
+
+
+def _doubt(answer: axes.Answer, fix: axes.Fix, verdict: axes.Verdict, hemisphere: Hemisphere) -> str:
+    """Why *fix* of one sensor may not be what is wrong, although it fits; empty where it is beyond doubt."""
+    if verdict.apart < axes.SURE:
+        return (
+            "acc and mag do not both say so by themselves, as far as they turn "
+            f"({max(verdict.apart, 0.0):.1f} standard deviations): another sensor may be wrong, too"
+        )
+    if not fix.decided and axes.opposed(fix.cosine, hemisphere):
+        other = "south" if hemisphere == "north" else "north"
+        return (
+            f"the field then points {'up' if hemisphere == 'north' else 'down'} (dip {_dip(fix.cosine):+.0f}°): acc or mag has "
+            f"the other sign, too, or this is the other hemisphere (--hemisphere {other})"
+        )
+    if not fix.decided:
+        what = "the signs of acc and mag" if answer.sensor == "gyr" else "its sign"
+        return f"{what} cannot be told, the dip is too small ({_dip(fix.cosine):+.0f}°)"
+    if fix.otherwise is not None:
+        up = "xyz"[int(np.argmin(np.diag(fix.otherwise)))]
+        return (
+            f'acc and mag, both as "{axes.words(fix.otherwise)}", fit as well: turn {up} up; if acc {up} is then +g, it is the '
+            "gyroscope"
+        )
+    return ""
 
 
 def _why_not(verdict: axes.Verdict, rates: units.Rates, dead: list[str]) -> str:

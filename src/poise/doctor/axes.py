@@ -51,7 +51,7 @@ class Verdict(NamedTuple):
     against: float
     """standard deviations from the likeliest to the axes as they are"""
     apart: float
-    """where both acc and mag differ: standard deviations from each one's likeliest to its own next, the smaller"""
+    """standard deviations by which acc alone and mag alone put it before their own next, the smaller; below 0: they do not"""
     better: float
     """how many times smaller the loss of the likeliest is than that of the axes as they are, where they differ most"""
 
@@ -83,7 +83,7 @@ def judge(acc: Turns, mag: Turns) -> Verdict:
         if not any(each[1:] == both[1:] for each in answers):
             found = _judged((*answers, both), acc, mag, by_acc, by_mag)
             if found.answer.sensor == "both" and found.sure:
-                return found._replace(apart=min(_alone(by_acc[:, :48]), _alone(by_mag[:, :48])))
+                return found
     return _judged(answers, acc, mag, by_acc, by_mag)
 
 
@@ -102,16 +102,23 @@ def _judged(answers: Sequence[Answer], acc: Turns, mag: Turns, by_acc: Floats, b
     sure = bool(best != 0 and margin >= SURE and clear)
     wrong = sure or bool(best != 0 and against >= _REFUTED and clear)
     agreed = bool(best == 0 and margin >= AGREED)
-    return Verdict(chosen, sure, wrong, agreed, margin, answers[rival], against, 0.0, better)
+    apart = min(_alone(by_acc, chosen.acc), _alone(by_mag, chosen.mag))
+    return Verdict(chosen, sure, wrong, agreed, margin, answers[rival], against, apart, better)
 
 
-def _alone(votes: Floats) -> float:
-    """Standard deviations of one sensor's votes from its likeliest of the 48 answers to its next."""
+def _alone(votes: Floats, index: int) -> float:
+    """Standard deviations of one sensor's votes from answer *index* to the likeliest of the other 47; infinite without a vote.
+
+    Two sensors may be wrong: what is wrong with one is known only where the turning of acc and that of mag, each by itself,
+    say the same. Together they do not: a clear vote of mag carries whatever acc, which shakes, does not contradict.
+    """
+    if not len(votes):
+        return float("inf")
+    votes = votes[:, :48]
     total = votes.sum(axis=0)
-    best = int(total.argmin())
-    spread = np.sqrt(((votes - votes[:, [best]]) ** 2).sum(axis=0))
-    others = np.arange(len(total)) != best
-    return float(np.min((total - total[best])[others] / np.maximum(spread[others], 1e-9)))
+    spread = np.sqrt(((votes - votes[:, [index]]) ** 2).sum(axis=0))
+    others = np.arange(len(total)) != index
+    return float(np.min((total - total[index])[others] / np.maximum(spread[others], 1e-9)))
 
 
 def _clear(answer: Answer, acc: Turns, mag: Turns, by_acc: Floats, by_mag: Floats) -> tuple[bool, float]:
@@ -139,25 +146,35 @@ class Fix(NamedTuple):
     matrix: Floats
     """(3, 3), v_right = M v"""
     decided: bool
-    """whether the sign is known, too"""
+    """whether force and field then stand as they do in the hemisphere, clearly"""
     cosine: float
     """between specific force and field, thereafter"""
+    otherwise: Floats | None = None
+    """the axes of both acc and mag that would explain the same, where those are as few changes"""
 
 
 def fix(answer: Answer, acc: Floats, mag: Floats, hemisphere: Hemisphere) -> Fix:
     """The axes for the one sensor of *answer*, from blocks of *acc* and *mag* (m, 3).
 
     The turning leaves the sign of gravity and of the field open: −v turns as v does. The one that is left as it is fixes
-    the other's, since the field points down in the north and up in the south.
+    the other's, since the field points down in the north and up in the south. A gyroscope leaves both as they are, and with
+    them their sign: force and field that stand as in the other hemisphere are a second mistake, or that hemisphere.
     """
     along = mean_cosines(acc, mag)
     if answer.sensor == "gyr":
-        return Fix(signed_axes()[answer.acc], True, float(np.trace(along)))
+        matrix, cosine = signed_axes()[answer.acc], float(np.trace(along))
+        same = 2 * changed(-matrix) <= changed(matrix) and np.linalg.det(matrix) > 0
+        return Fix(matrix, _stands(cosine, hemisphere), cosine, -matrix.T if same else None)
     matrix = signed_axes()[answer.acc or answer.mag].T
     cosine = float(np.sum(matrix * (along.T if answer.sensor == "acc" else along)))
     if cosine * down(hemisphere) < 0:
         matrix, cosine = -matrix, -cosine
-    return Fix(matrix, bool(abs(cosine) > _LEAST_DIP), cosine)
+    return Fix(matrix, _stands(cosine, hemisphere), cosine)
+
+
+def _stands(cosine: float, hemisphere: Hemisphere) -> bool:
+    """Whether force and field stand as they do in the *hemisphere*, clearly."""
+    return cosine * down(hemisphere) > _LEAST_DIP
 
 
 class BothFixes(NamedTuple):

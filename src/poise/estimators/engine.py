@@ -1,11 +1,11 @@
-"""`estimate` over a recording and `Stream` over packets: both run the one loop, and so give the same bits."""
+"""`Stream`: a method running over packets as they come; whole recordings are streams fed in blocks."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
-from math import inf, isfinite, nan
+from math import isfinite, nan
 from typing import Any, Self
 
 import numpy as np
@@ -13,11 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from poise.data.attitude import COLUMNS, QUAT, Attitude, HeadingReference, Provenance
 from poise.data.flags import SILENT
-from poise.data.learned import Learned, Learning
+from poise.data.learned import Learned
 from poise.data.packet import Packet
-from poise.data.recording import STANDARD_GRAVITY, Recording, check_unit_of_time, samples
+from poise.data.recording import check_unit_of_time, samples
 from poise.errors import MethodError, RecordingError, StateError
-from poise.estimators.guard import Guard
 from poise.estimators.loop import (
     ACC,
     ACC_AGE,
@@ -30,30 +29,25 @@ from poise.estimators.loop import (
     MAG,
     RESET_AT,
     RESETS,
-    ROW_COLUMNS,
     TIME,
     TURN,
     WIDTH,
     advance,
     begin,
     begin_at,
-    pack,
     recall,
     state_of,
 )
 from poise.estimators.parameters import as_dict, prepared
-from poise.estimators.rest_bias import RestBias
 from poise.estimators.saving import copied, differences, filled, flat, sealed, unsealed
-from poise.estimators.slewed import Slewed
-from poise.estimators.starting import checked_start, every
+from poise.estimators.starting import checked_start
+from poise.estimators.wrapping import core, innermost, name_of, slewed, wrapped
 from poise.math import arrays
 from poise.math.compiled import CompileError, direct
 from poise.math.quaternions import Quat
 from poise.math.vectors import Vec3
 
 Floats = NDArray[np.float64]
-
-_BLOCK = 2048  # rows of a recording at a time: their buffer stays in the processor's cache
 
 
 class Stream:
@@ -84,19 +78,19 @@ class Stream:
     ) -> None:
         self.method = method
         self._made_of = (method, start, tuple(_three("bias", bias)), guard, rest_bias, silence, start_from, slew)
-        self._running = prepared(_slewed(_wrapped(method, guard, rest_bias), slew))
+        self._running = prepared(slewed(wrapped(method, guard, rest_bias), slew))
         if not isinstance(silence, (int, float)) or not silence >= 0.0:
             raise MethodError(f"silence: expected seconds, found {silence!r}")
-        self._declination = float(getattr(_core(method), "declination", 0.0))
-        self._provenance = Provenance(_name(method), as_dict(self._running))
+        self._declination = float(getattr(core(method), "declination", 0.0))
+        self._provenance = Provenance(name_of(method), as_dict(self._running))
         self._start = None if start is None else _start_quat(start)
         self._bias = Vec3(*_three("bias", bias))
-        self._known = None if start_from is None else checked_start(_core(method), start_from, self._bias)
+        self._known = None if start_from is None else checked_start(core(method), start_from, self._bias)
         if self._known is not None:
             self._bias = Vec3(*self._known["gyr_bias"]["value"])
         self._silence = silence
         self._memory: Any = None
-        self._has_declination = hasattr(_core(method), "declination")
+        self._has_declination = hasattr(core(method), "declination")
         self._reset = False  # whether the heading was set by hand
         self._run: Any = None
         self._row = np.zeros((1, WIDTH))
@@ -167,7 +161,7 @@ class Stream:
                 advance(self._memory, rows, table, flags)
             except CompileError as problem:
                 raise MethodError(
-                    f"{_name(self.method)} does not compile: {_reason(problem)}; "
+                    f"{name_of(self.method)} does not compile: {_reason(problem)}; "
                     "run it with NUMBA_DISABLE_JIT=1 to see where in plain Python"
                 ) from problem
             self._run = direct(advance, self._memory, rows, table, flags)
@@ -179,7 +173,7 @@ class Stream:
             self._memory = begin_at(self._running, self._start, self._declination, self._bias, self._aside)
             self._aside[LAST : LAST + 4] = self._start
         if self._known is not None:  # the state's arrays are written into; its numbers hold the bias already
-            _core(self._running).start_from(_innermost(state_of(self._memory)), self._known)
+            core(self._running).start_from(innermost(state_of(self._memory)), self._known)
 
     def check(self, now: float) -> Attitude:
         """The attitude at *now* (s, the packets' clock) without a new sample, one row; for a timer.
@@ -221,10 +215,10 @@ class Stream:
     @property
     def learned(self) -> Learned | None:
         """What the method has found out about the sensors so far, where it does: name → value, sigma and unit."""
-        core, state = _core(self._running), self.running_state
-        if state is None or not hasattr(core, "learned"):
+        inside, state = core(self._running), self.running_state
+        if state is None or not hasattr(inside, "learned"):
             return None
-        found: Learned = core.learned(_innermost(state))
+        found: Learned = inside.learned(innermost(state))
         return found
 
     @property
@@ -357,85 +351,6 @@ class Stream:
                 self._heading = "true" if self._declination else "magnetic"
 
 
-def estimate(
-    method: Any,
-    recording: Recording,
-    start: Attitude | ArrayLike | None = None,
-    *,
-    bias: ArrayLike = (0.0, 0.0, 0.0),
-    guard: bool | None = True,
-    rest_bias: bool = True,
-    start_from: Learned | Attitude | None = None,
-    slew: float | None = None,
-    learning: float | None = None,
-    progress: Callable[[int], None] | None = None,
-) -> Attitude:
-    """The attitude after every row of *recording*, in its order, by *method* (``TwoStage()``, ``AdaptiveGain()``, …).
-
-    Arguments as for :class:`Stream`; *learning* (s) is how often what is known of the sensors by then is taken down, for
-    ``attitude.learning``; *progress* is called with the number of rows done so far.
-    Raises :class:`RecordingError` or :class:`MethodError` where the two cannot be used.
-    """
-    if not isinstance(recording, Recording):
-        raise RecordingError(
-            f"expected a Recording, found {type(recording).__name__}; see poise.read and poise.Recording"
-        )
-    method = at_gravity(method, recording.gravity)
-    stream = Stream(method, start, bias=bias, guard=guard, rest_bias=rest_bias, start_from=start_from, slew=slew)
-    return feed(stream, recording, learning=learning, progress=progress)
-
-
-def estimate_chunks(method: Any, chunks: Iterable[Recording], **options: Any) -> Iterator[tuple[Recording, Attitude]]:
-    """Each of the consecutive recordings *chunks* and its attitude: together, bit for bit, those of :func:`estimate`.
-
-    For recordings that do not fit into memory; *options* are those of :class:`Stream`.
-    """
-    stream = None
-    for recording in chunks:
-        stream = stream or Stream(at_gravity(method, recording.gravity), **options)
-        yield recording, feed(stream, recording)
-
-
-def feed(
-    stream: Stream,
-    recording: Recording,
-    block: int = _BLOCK,
-    *,
-    after: Callable[[slice, NDArray[np.uint32]], None] | None = None,
-    learning: float | None = None,
-    progress: Callable[[int], None] | None = None,
-) -> Attitude:
-    """What *stream* says about the next rows, *recording*, *block* at a time; *after* is told of each: rows, flags."""
-    n = len(recording)
-    cuts = frozenset() if learning is None else frozenset(every(learning, recording.time))
-    times: list[float] = []
-    found: list[tuple[list[str], Floats, Floats]] = []
-    table, flags = np.empty((n, COLUMNS)), np.empty(n, np.uint32)
-    columns = tuple(np.ascontiguousarray(getattr(recording, name)) for name in ROW_COLUMNS)
-    buffer = np.empty((min(block, n), WIDTH))
-    first = 0
-    for last in sorted({*range(block, n, block), *cuts, n} - {0}):
-        part = slice(first, last)
-        first = last
-        rows = buffer[: last - part.start]
-        pack(rows, *(column[part] for column in columns))
-        stream._see_mag(rows)
-        stream._advance_into(rows, table[part], flags[part])
-        if after is not None:
-            after(part, flags[part])
-        if last in cuts and (learned := stream.learned) is not None:
-            times.append(float(recording.time[last - 1]))
-            found.append(learned.numbers())
-        if progress is not None:
-            progress(last)
-    provenance = replace(stream._provenance, source=recording.source, source_hash=recording.source_hash)
-    last_known = stream.learned
-    if last_known is not None:
-        last_known = replace(last_known, source=recording.name)
-    over_time = None if learning is None or last_known is None else Learning.of(times, found, last_known)
-    return Attitude(recording.time.copy(), table, flags, stream._heading, "enu", provenance, last_known, over_time)
-
-
 def _revived(method: Any, start: Any, *made_of: Any) -> Stream:
     bias, guard, rest_bias, silence, start_from, slew, saved = made_of
     stream = Stream(
@@ -450,63 +365,10 @@ def _space() -> Iterator[tuple[Floats, Floats, NDArray[np.uint32]]]:
     return zip(np.empty((n, 1)), np.empty((n, 1, COLUMNS)), np.empty((n, 1), np.uint32), strict=True)
 
 
-def _core(method: Any) -> Any:
-    """The method inside its wrappers."""
-    while isinstance(method, (Guard, RestBias, Slewed)):
-        method = method.method
-    return method
-
-
-def _innermost(state: Any) -> Any:
-    """The state of the method inside its wrappers."""
-    while hasattr(state, "inner"):
-        state = state.inner
-    return state
-
-
-def _slewed(method: Any, slew: float | None) -> Any:
-    if slew is None or slew == inf:
-        return method
-    if isinstance(method, Slewed):
-        raise MethodError("slew: the method given is slewed already")
-    return Slewed(method, slew, float(getattr(_core(method), "lead", 0.0)))
-
-
-def _wrapped(method: Any, guard: bool | None, rest_bias: bool) -> Any:
-    prepared(method)  # a clear error about the method itself, before it is wrapped
-    if guard not in (True, None):
-        raise MethodError(
-            f"guard: expected True, or None to leave it out, found {guard!r}; give Guard(method, …) for others"
-        )
-    if isinstance(method, Guard):
-        return method
-    if isinstance(method, Slewed):
-        return method._replace(method=_wrapped(method.method, guard, rest_bias))
-    if rest_bias and not isinstance(method, RestBias) and not getattr(method, "learns_bias", False):
-        method = RestBias(method)
-    if not guard:
-        return method
-    facts: dict[str, Any] = {
-        name: float(getattr(_core(method), name)) for name in ("declination", "gravity") if hasattr(_core(method), name)
-    }
-    return Guard(method, follows_mag=hasattr(_core(method), "declination"), **facts)
-
-
-def at_gravity(method: Any, gravity: float) -> Any:
-    """*method* with the recording's gravity, where it has one and was left at the usual."""
-    if gravity == STANDARD_GRAVITY or isinstance(method, (Guard, RestBias, Slewed)):
-        return method
-    return method._replace(gravity=gravity) if getattr(method, "gravity", None) == STANDARD_GRAVITY else method
-
-
 def _reason(problem: Exception) -> str:
     """The line of a compiler's report that says what is wrong."""
     lines = [line.strip() for line in str(problem).splitlines() if line.strip()]
     return next((line for line in lines if not line.startswith(("Failed", "During", "File"))), lines[0])
-
-
-def _name(method: Any) -> str:
-    return type(_core(method)).__name__
 
 
 def _three(name: str, values: ArrayLike) -> list[float]:

@@ -124,6 +124,24 @@ class Newest:
         self.change += 1
         self.versions[slots] = self.change
 
+    def put_rows(self, slot: int, records: NDArray[np.void]) -> None:
+        """Takes over the last of *records*, which are all of one slot."""
+        last = records[-1:].copy()
+        last["flags_since"] = self.records["flags_since"][slot] | np.bitwise_or.reduce(records["flags"])
+        self.records[slot] = last[0]
+        self.change += 1
+        self.versions[slot] = self.change
+
+    def silence(self, slot: int) -> None:
+        """What its record says is no longer known."""
+        if self.versions[slot]:
+            record = self.records[slot]
+            record["flags"] |= np.uint32(bits.SILENT)
+            record["flags_since"] |= record["flags"]
+            record["valid"] = 0
+            self.change += 1
+            self.versions[slot] = self.change
+
     def unknown(self, slot: int, row: Attitude, tip: int) -> None:
         """Its device has fallen silent: *row* is what the stream says now."""
         record = self.records[slot]

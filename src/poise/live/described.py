@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import binascii
+import re
 import struct
 import tomllib
 from collections.abc import Callable
@@ -41,8 +42,9 @@ _CHECKS: dict[str, tuple[str, Callable[[bytes], int]]] = {
     "crc32": ("I", binascii.crc32),
 }
 _COLUMNS = {"time": 0} | {f"{s}_{a}": 1 + 3 * i + k for i, s in enumerate(names.SENSORS) for k, a in enumerate("xyz")}
+_UUID = re.compile(r"[0-9a-fA-F]{4}|[0-9a-fA-F]{8}(-[0-9a-fA-F]{4}){3}-[0-9a-fA-F]{12}")
 _LONGEST = 4096  # bytes of a line or frame
-_KEYS = {"device", "rate", "baud", "columns", "frame", "scale"}
+_KEYS = {"device", "rate", "baud", "columns", "frame", "scale", "ble"}
 _FRAME_KEYS = {"sync", "fields", "endian", "checksum"}
 DEFAULT = "time[s],gx[rad/s],gy,gz,ax[m/s2],ay,az,mx[uT],my,mz"
 
@@ -68,6 +70,9 @@ class Description:
     layout: str = ""
     """the struct of a binary frame's fields; empty for text lines"""
     sync: bytes = b""
+    """what a frame begins with; empty: a notification holds whole frames and nothing else"""
+    characteristic: str = ""
+    """UUID of what notifies, of a device over Bluetooth Low Energy"""
     check: str = "none"
     wraps: float = 0.0
     """at which its clock begins anew, in s; 0: never"""
@@ -95,6 +100,8 @@ class Description:
         if wrong := scale.keys() - {"time", *names.SENSORS}:
             raise DeviceError(f"{where}: scale of {wrong.pop()!r}: expected time, gyr, acc or mag")
         facts = {"device": str(found.get("device", "")), "baud": _number(where, found, "baud", 115200)}
+        if "ble" in found:
+            facts["characteristic"] = _characteristic(where, found["ble"])
         rate = float(_number(where, found, "rate", 0))
         if "columns" in found:
             words = found["columns"].split(",") if isinstance(found["columns"], str) else found["columns"]
@@ -109,6 +116,15 @@ class Description:
             missing = ", ".join(name for name, at in _COLUMNS.items() if at in needed)
             raise DeviceError(f"{where}: {missing} missing; gyroscope and accelerometer have three axes each")
         return made
+
+
+def _characteristic(where: str, ble: Any) -> str:
+    uuid = ble.get("characteristic") if isinstance(ble, dict) and ble.keys() == {"characteristic"} else None
+    if not isinstance(uuid, str) or not _UUID.fullmatch(uuid):
+        raise DeviceError(
+            f'{where}: ble: expected characteristic = "UUID", 4 hex digits or 32 with hyphens, found {ble!r}'
+        )
+    return uuid.lower() if len(uuid) > 4 else f"0000{uuid.lower()}-0000-1000-8000-00805f9b34fb"
 
 
 def _number(where: str, found: dict[str, Any], key: str, default: int) -> Any:
@@ -144,8 +160,11 @@ def _columns(where: str, words: list[str], scale: dict[str, float]) -> tuple[Col
 
 
 def _binary(where: str, frame: Any, scale: dict[str, float], rate: float, facts: dict[str, Any]) -> Description:
-    if not isinstance(frame, dict) or not {"sync", "fields"} <= frame.keys() <= _FRAME_KEYS:
-        raise DeviceError(f"{where}: frame: expected sync and fields, and perhaps endian and checksum")
+    needed = {"fields"} if "characteristic" in facts else {"sync", "fields"}
+    if not isinstance(frame, dict) or not needed <= frame.keys() <= _FRAME_KEYS:
+        raise DeviceError(
+            f"{where}: frame: expected sync and fields (fields for [ble]), and perhaps endian and checksum"
+        )
     words = [str(w).split() for w in frame["fields"]]
     if not all(len(word) == 2 and word[1] in _TYPES for word in words):
         raise DeviceError(f'{where}: fields: expected a list like "gx[deg/s] i16", types {", ".join(_TYPES)}')
@@ -153,10 +172,10 @@ def _binary(where: str, frame: Any, scale: dict[str, float], rate: float, facts:
     if check not in _CHECKS or frame.get("endian", "little") not in ("little", "big"):
         raise DeviceError(f"{where}: checksum is one of {', '.join(_CHECKS)}, endian little or big")
     try:
-        sync = bytes.fromhex(str(frame["sync"]))
+        sync = bytes.fromhex(str(frame.get("sync", "")))
     except ValueError:
         sync = b""
-    if not sync:
+    if not sync and "sync" in frame:
         raise DeviceError(f'{where}: sync: expected the bytes that every frame begins with, in hex: "AA 55"')
     columns = _columns(where, [word[0] for word in words], scale)
     layout = ("<" if frame.get("endian", "little") == "little" else ">") + "".join(_TYPES[word[1]] for word in words)
@@ -227,8 +246,28 @@ class Decoder:
             rows.append(numbers)
         return rows
 
+    def _whole(self, data: bytes) -> list[tuple[float, ...]]:
+        """Of a notification, which holds frames from its beginning to its end."""
+        code, check = _CHECKS[self._description.check]
+        body, tail = struct.Struct(self._description.layout), struct.Struct(self._description.layout[0] + code)
+        size = body.size + tail.size
+        rows = []
+        if not data or len(data) % size:
+            self.rejected += 1
+            return []
+        for at in range(0, len(data), size):
+            end = at + body.size
+            if code and check(data[at:end]) != tail.unpack_from(data, end)[0]:
+                self.rejected += 1
+            else:
+                rows.append(body.unpack_from(data, at))
+        return rows
+
     def _frames(self) -> list[tuple[float, ...]]:
         found, sync, data = self._description, self._description.sync, self._buffer
+        if not sync:
+            self._buffer = b""
+            return self._whole(data)
         code, check = _CHECKS[found.check]
         body, tail = struct.Struct(found.layout), struct.Struct(found.layout[0] + code)
         size = len(sync) + body.size + tail.size

@@ -63,7 +63,7 @@ class Health:
         """A tick had samples of it."""
         interval = now - self._ticked
         if self._ticked and interval < 1.0:
-            self._interval += 0.05 * (interval - self._interval)
+            self._interval += (0.05 if self._interval else 1.0) * (interval - self._interval)
             self.silence = max(_SILENCE, 3.0 * self._interval)
         self._ticked = now
         if not self._counted or now - self._counted[-1][0] > 0.1:
@@ -97,6 +97,8 @@ class Device:
         """how many connections it has now"""
         self.monitor: Monitor | None = None
         self.tip = frames.NOT_MONITORED
+        self.timebase = ""
+        """what its stamps count from, where other devices' stamps do, too"""
         self.to_restore: Any = None
         """a checkpoint and the samples since, of a recording that goes on"""
         self._ready: deque[Taken] = deque()  # samples before a gap in their numbers

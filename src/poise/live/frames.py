@@ -17,7 +17,7 @@ from poise.estimators.loop import WIDTH
 Floats = NDArray[np.float64]
 
 VERSION = 1
-SAMPLES, ATTITUDES = 1, 2
+SAMPLES, ATTITUDES, MOTION = 1, 2, 3
 HEADER = struct.Struct("<BBHIQ")
 UNNUMBERED = 2**64 - 1
 """The sequence number of a device that does not count its samples: the server counts them."""
@@ -58,20 +58,25 @@ class Head(NamedTuple):
     """of the first sample, or UNNUMBERED"""
 
 
-def head(frame: bytes) -> Head:
-    """The header of a frame of samples. Raises :class:`FrameError` unless the frame is whole and of this version."""
+def head(frame: bytes, of: int = SAMPLES) -> Head:
+    """The header of a frame of the kind *of*: samples, raw motion.
+
+    Raises :class:`FrameError` unless the frame is whole and of this version.
+    """
     if len(frame) < HEADER.size:
         raise FrameError(f"a frame begins with {HEADER.size} bytes of header; this one has {len(frame)} bytes")
     version, kind, size, count, sequence = HEADER.unpack_from(frame)
-    if len(frame) == HEADER.size + size * count and version == VERSION and kind == SAMPLES:
-        if size in _SIZES and 0 < count <= MOST_SAMPLES:
+    if len(frame) == HEADER.size + size * count and version == VERSION and kind == of:
+        known = size in _SIZES[: 1 if of == MOTION else 2]
+        if known and 0 < count <= MOST_SAMPLES:
             return Head(size, count, sequence)
-        if size in _SIZES:
+        if known:
             raise FrameError(f"a frame holds 1 to {MOST_SAMPLES} samples, this one {count}")
-        raise FrameError(f"a sample has {_SIZES[0]} or {_SIZES[1]} bytes, this frame says {size}")
+        sizes = f"{_SIZES[0]}" if of == MOTION else f"{_SIZES[0]} or {_SIZES[1]}"
+        raise FrameError(f"a sample has {sizes} bytes, this frame says {size}")
     if version != VERSION:
         raise FrameError(f"version {version}: this server speaks version {VERSION} (the first byte)")
-    if kind != SAMPLES:
+    if kind != of:
         raise FrameError(f"kind {kind}: a device sends kind {SAMPLES}, samples (the second byte)")
     raise FrameError(
         f"{count} samples of {size} bytes need a frame of {HEADER.size + size * count} bytes, this one has {len(frame)}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
@@ -17,8 +17,10 @@ from poise.estimators.engine import Stream
 from poise.live.batch import Batch, Newest, Span
 from poise.live.device import Device, Running
 from poise.live.devices import Shape
+from poise.live.joint import Joint
+from poise.live.joints import Joints
 from poise.live.methods import Choice, startable, warmed
-from poise.live.waits import Waits
+from poise.live.waits import Waits, WaitsOf
 from poise.live.watching import Watch, as_facts, as_text
 
 _EVENTS = 1000
@@ -43,6 +45,8 @@ class Hub:
         self.max_rate = max_rate
         self.devices: dict[str, Device] = {}
         self.newest = Newest()
+        self.joints = Joints(self.devices, self.newest)
+        self._numbers = 0  # of devices and joints, none given twice
         self.events: deque[dict[str, Any]] = deque(maxlen=_EVENTS)
         self.on_batch: list[Callable[[Batch], None]] = []
         """called with every tick's samples and attitudes: the recorder, viewers of every sample"""
@@ -57,7 +61,7 @@ class Hub:
         self._to_restore: deque[Device] = deque()
         self._event_number = 0
         self._last_tick = 0.0
-        self.waits = Waits()
+        self.waits, self.waits_of = Waits(), WaitsOf()
         self.tick_cost = 0.0
         """s, the running mean of what a tick with samples takes"""
 
@@ -65,18 +69,24 @@ class Hub:
         """The device *name*, made at its first mention. Raises :class:`HubError` for a name that cannot be, or one too many."""
         found = self.devices.get(name)
         if found is None:
-            if not 0 < len(name) <= 64 or not all(c.isalnum() or c in "-_.:" for c in name) or name.startswith("."):
-                raise HubError(f"device {name[:80]!r}: expected 1 to 64 letters, digits, - _ . or :")
+            _check_name("device", name)
+            if name in self.joints.all:
+                raise HubError(f"device {name!r}: there is a joint of that name")
             if len(self.devices) >= MOST_DEVICES:
                 raise HubError(f"device {name!r}: there are {MOST_DEVICES} already")
-            found = self.devices[name] = Device(name, len(self.devices), source, self._waiting, shape)
+            found = self.devices[name] = Device(name, self._number(), source, self._waiting, shape)
             self.set_methods(found, self.methods)
             self.event("device", found, f"device {name} from {source or 'somewhere'}")
         return found
 
+    def reshape(self, device: Device, shape: Shape) -> None:
+        """*device* looks different from what was thought: it was known from a recording, or says so only now."""
+        device.shape = shape
+        self._changed()
+
     def restored(self, name: str) -> Device:
         """The device *name* of a recording that goes on; it runs nothing until :meth:`restore`."""
-        found = self.devices[name] = Device(name, len(self.devices), "recording", self._waiting)
+        found = self.devices[name] = Device(name, self._number(), "recording", self._waiting)
         self._to_restore.append(found)
         return found
 
@@ -93,6 +103,33 @@ class Hub:
         if not rebuilt:
             self.set_methods(device, self.methods)
         self._changed()
+
+    def _number(self) -> int:
+        self._numbers += 1
+        return self._numbers - 1
+
+    def set_joint(self, name: str, segment: str, base: str) -> None:
+        """From now on the joint *name* says how the device *segment* stands seen from *base*; they may come later.
+
+        Raises :class:`HubError` or :class:`JointError` for one that cannot be.
+        """
+        for kind, each in (("joint", name), ("segment", segment), ("base", base)):
+            _check_name(kind, each)
+        self.joints.check(name, segment, base)
+        self.joints.add(name, self._number(), segment, base)
+        self.event("joint", None, f"joint {name}: {segment} seen from {base}")
+        self._changed()
+
+    def remove_joint(self, name: str) -> None:
+        """Raises :class:`JointError` where there is none."""
+        self.joints.remove(name)
+        self.event("joint", None, f"joint {name} is no more")
+        self._changed()
+
+    @property
+    def shown(self) -> list[Device | Joint]:
+        """All that viewers are shown: devices and the joints between them."""
+        return [*self.devices.values(), *self.joints.all.values()]
 
     def find(self, name: str) -> Device:
         """The device *name*; raises :class:`HubError` where there is none."""
@@ -174,13 +211,13 @@ class Hub:
         for device in ready:
             del self._waiting[device]
         wall = time.time() - now  # from the monotonic clock to the calendar's
-        parts, spans, row, out, oldest = [], [], 0, 0, now
+        parts, spans, row, out, arrived = [], [], 0, 0, []
         for device in ready:
             taken = device.take()
             parts.append(taken.rows)
             first, n = taken.sequence, len(taken.rows)
             device.clock.update(float(taken.rows[-1, 0]), taken.arrived)
-            oldest = min(oldest, taken.first_arrived)
+            arrived.append(taken.first_arrived)
             for run in device.runs:
                 spans.append(Span(device, run, first, slice(row, row + n), slice(out, out + n)))
                 out += n
@@ -193,9 +230,12 @@ class Hub:
         if self.watch is not None:
             self._judge(batch)
         self.newest.put(batch)
+        self.joints.advance(batch, now)
         for told in self.on_batch:
             told(batch)
-        self.waits.add(now - oldest + time.perf_counter() - began)
+        waited = now - np.array(arrived) + (time.perf_counter() - began)
+        self.waits.add(float(waited.max()))
+        self.waits_of.add(np.array([device.number for device in ready]), waited)
         self.tick_cost += 0.1 * (time.perf_counter() - began - self.tick_cost)
         return batch
 
@@ -249,6 +289,7 @@ class Hub:
                     latest = run.stream.latest
                     if latest is not None:
                         self.newest.unknown(run.slot, run.stream.check(float(latest.time[0]) + since), device.tip)
+                self.joints.silent(device)
                 self.event("silent", device, f"{device.name} is silent: its attitude is unknown")
 
     def event(self, kind: str, device: Device | None, text: str, **facts: Any) -> None:
@@ -264,8 +305,25 @@ class Hub:
         for told in self.on_change:
             told()
 
-    def latest(self, device: Device, method: str | None = None) -> Any:
+    def conditions(self, of: Iterable[Device | Joint], now: float) -> list[dict[str, Any]]:
+        """How devices and joints fare, with how long a sample waits for its attitude; that of a joint is not measured."""
+        each_of = list(of)
+        numbers = [each.number for each in each_of]
+        both = (self.waits_of.quantiles(numbers, share) for share in (0.5, 0.99))
+        found = []
+        for each, middle, most in zip(each_of, *both, strict=True):
+            if isinstance(each, Joint):
+                waits: dict[str, float | None] = {"p50": None, "p99": None}
+                found.append(each.condition(self.devices, now) | {"wait_ms": waits})
+            else:
+                waits = {"p50": round(1e3 * middle, 3), "p99": round(1e3 * most, 3)}
+                found.append(each.condition(now) | {"wait_ms": waits})
+        return found
+
+    def latest(self, device: Device | Joint, method: str | None = None) -> Any:
         """The newest record of *device* by *method* (its first one unless told); None before the first sample."""
+        if isinstance(device, Joint):
+            return self.newest.records[device.slot] if self.newest.versions[device.slot] else None
         for run in device.runs:
             if method in (None, run.choice.name):
                 record = self.newest.records[run.slot]
@@ -273,3 +331,8 @@ class Hub:
         raise HubError(
             f"{device.name} does not run {method!r}; it runs {', '.join(r.choice.name for r in device.runs)}"
         )
+
+
+def _check_name(kind: str, name: str) -> None:
+    if not 0 < len(name) <= 64 or not all(c.isalnum() or c in "-_.:" for c in name) or name.startswith("."):
+        raise HubError(f"{kind} {name[:80]!r}: expected 1 to 64 letters, digits, - _ . or :")

@@ -23,13 +23,20 @@ _DEVICE = (
 def metrics(server: Server) -> str:
     """All figures as Prometheus' text format."""
     now = time.monotonic()
-    conditions = [device.condition(now) for device in server.hub.devices.values()]
+    conditions = server.hub.conditions(server.hub.devices.values(), now)
     lines: list[str] = []
     for name, kind, text, key in _DEVICE:
         values = [(_label(c), c["state"] == "silent" if key == "silent" else c[key]) for c in conditions]
         _family(lines, f"poise_device_{name}", kind, text, values)
     invalid = [(f'{_label(c)},method="{m}"', n) for c in conditions for m, n in c["invalid"].items()]
     _family(lines, "poise_invalid_total", "counter", "attitudes not to be acted on", invalid)
+    waits_of = [
+        (f'{_label(c)},quantile="{q}"', c["wait_ms"][key] / 1e3)
+        for c in conditions
+        for q, key in ((0.5, "p50"), (0.99, "p99"))
+    ]
+    text = "from a sample's arrival to its attitude, of a device"
+    _family(lines, "poise_device_wait_seconds", "gauge", text, waits_of)
     _family(lines, "poise_viewers", "gauge", "connected viewers", [("", len(server.viewers))])
     _family(lines, "poise_tick_seconds", "gauge", "mean cost of a tick with samples", [("", server.hub.tick_cost)])
     waits = server.hub.waits

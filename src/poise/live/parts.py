@@ -20,8 +20,11 @@ from poise.live.methods import Choice
 _KEY = "@"  # between a part's device, method and number: no device has it in its name
 
 
-def convert(path: Path, number: int, folder: Path) -> int:
-    """Parts, in *folder*, of journal file *path*, the *number*-th; how many samples there were. Doing it again does no harm."""
+def convert(path: Path, number: int, folder: Path, only: str | None = None) -> int:
+    """Parts, in *folder*, of journal file *path*, the *number*-th; how many samples there were. Doing it again does no harm.
+
+    *only* is the one device that is wanted.
+    """
     samples = defaultdict(list)
     attitudes = defaultdict(list)
     for block in journal.read(path):
@@ -29,16 +32,21 @@ def convert(path: Path, number: int, folder: Path) -> int:
             continue
         taken: set[str] = set()
         for name, _, start, stop, out, method in block.head["spans"]:
+            if only not in (None, name):
+                continue
             kind, settings, heading = block.head["methods"][method]
-            rows = block.rows[start:stop]
+            rows = block.rows[start:stop] if only is None else block.rows[start:stop].copy()
             if name not in taken:
                 samples[name].append(rows)
                 taken.add(name)
             end = out + stop - start
-            attitudes[name, kind, settings].append((rows[:, 0], block.table[out:end], block.flags[out:end], heading))
+            made = (rows[:, 0], block.table[out:end], block.flags[out:end])
+            if only is not None:  # the rest of the block need not be kept
+                made = (made[0], made[1].copy(), made[2].copy())
+            attitudes[name, kind, settings].append((*made, heading))
     for name, pieces in samples.items():
         rows = np.concatenate(pieces)
-        made = Recording.at_rate(100.0, np.empty((0, 3)), np.empty((0, 3)), name=name).with_samples(
+        recording = Recording.at_rate(100.0, np.empty((0, 3)), np.empty((0, 3)), name=name).with_samples(
             time=rows[:, 0],
             gyr=rows[:, 1:4],
             acc=rows[:, 4:7],
@@ -46,7 +54,7 @@ def convert(path: Path, number: int, folder: Path) -> int:
             acc_age=rows[:, 10],
             mag_age=rows[:, 11],
         )
-        write(made, folder / f"{name}{_KEY}{_KEY}{number:06d}.parquet")
+        write(recording, folder / f"{name}{_KEY}{_KEY}{number:06d}.parquet")
     order: dict[tuple[str, str], list[str]] = defaultdict(list)
     for (name, kind, settings), found in attitudes.items():
         order[name, kind].append(settings)
@@ -55,7 +63,7 @@ def convert(path: Path, number: int, folder: Path) -> int:
         attitude = Attitude(
             np.concatenate(times), np.concatenate(tables), np.concatenate(flags), headings[-1], "enu", facts
         )
-        write(attitude, folder / f"{name}{_KEY}{_named(kind, settings)}{_KEY}{number:06d}.parquet")
+        write(attitude, folder / f"{name}{_KEY}{named(kind, settings)}{_KEY}{number:06d}.parquet")
     return sum(len(rows) for pieces in samples.values() for rows in pieces)
 
 
@@ -70,6 +78,12 @@ def join(folder: Path, target: Path) -> list[Path]:
         made.append(target / (f"{name}.{kind}.attitude.parquet" if kind else f"{name}.parquet"))
         _joined(paths, made[-1])
     return made
+
+
+def those_of(device: str, folder: Path) -> list[tuple[int, Path]]:
+    """The parts of *device* in *folder*, each with its number."""
+    found = [(path.stem.split(_KEY), path) for path in folder.glob("*.parquet")]
+    return [(int(key[2]), path) for key, path in found if len(key) == 3 and key[0] == device]
 
 
 def _joined(paths: list[Path], target: Path) -> None:
@@ -95,7 +109,7 @@ def _joined(paths: list[Path], target: Path) -> None:
         out.write(rows.tail({key: text for key, text in facts.items() if key.startswith("poise.")}))
 
 
-def _named(kind: str, settings: str) -> str:
+def named(kind: str, settings: str) -> str:
     """A method in a file's name; where parameters differ from the defaults, with a few letters that tell them apart."""
     import hashlib
 

@@ -25,6 +25,8 @@ class SerialPort:
     def __init__(self, port: str, description: Description | None = None) -> None:
         self.port, self._description = port, description or Description()
         self.name = f"serial:{port}"
+        if self._description.layout and not self._description.sync:
+            raise DeviceError(f"{self.name}: the description has no sync, by which frames at a port are told apart")
         self._decoder = Decoder(description)
         self._device = self._description.device or Path(port).name
 

@@ -15,23 +15,30 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from poise.data.flags import SENTENCES, Flag
+from poise.data.flags import INVALID, SENTENCES, Flag
 from poise.errors import PoiseError
 from poise.live import frames, http
 from poise.live.access import Access, Gate
 from poise.live.hub import Hub, HubError
+from poise.live.joint import Joint
 from poise.live.methods import Choice, described
 from poise.live.session import rebuilt
 from poise.live.sockets import DeviceSocket, Viewer, choices
 from poise.version import __version__
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from poise.data.attitude import Attitude
     from poise.live.batch import Batch
     from poise.live.device import Device
     from poise.live.devices import Source
+    from poise.live.film import Film
     from poise.live.recorder import Recorder
 
 DASHBOARD = Path(__file__).parent / "dashboard"
+PHONE = Path(__file__).parent / "phone"
 _HEALTH_EVERY = 1.0  # s
 _FLAGS_EVERY = 0.25  # s that a flag stays in `flags_since`, so that every viewer sees it
 _BACKLOG = 8192
@@ -39,6 +46,7 @@ _HEAD_START = (
     2.0  # s to load the methods before the first device is served: beside a busy loop it takes several times as long
 )
 _LIST_EVERY = 0.2  # s between lists of devices
+_PAST_EVENTS = 50  # that a viewer is told when it comes
 _SLICE = 100  # devices in one message on health: thousands would hold up a tick
 
 
@@ -56,19 +64,34 @@ class Options:
     hosts: tuple[str, ...] = ()
     certificate: tuple[Path, Path] | None = None
     """certificate and key, for HTTPS"""
+    phone_token: str = ""
+    """what a phone's page shows; given to whoever may write"""
+    made_token: str = ""
+    """a token that was made up at the start, which nobody knows yet"""
+    own_certificate: bool = False
+    """whether this machine made its certificate itself"""
 
 
 class Server:
     """A hub, its sources, its recorder and whoever is connected, in one event loop."""
 
     def __init__(
-        self, hub: Hub, sources: Sequence[Source] = (), options: Options | None = None, recorder: Recorder | None = None
+        self,
+        hub: Hub,
+        sources: Sequence[Source] = (),
+        options: Options | None = None,
+        recorder: Recorder | None = None,
+        films: Sequence[Film] = (),
     ) -> None:
         self.hub, self.sources, self.options, self.recorder = hub, sources, options or Options(), recorder
+        self.films = tuple(films)
+        """recordings for pages to play"""
         self.viewers: dict[Viewer, None] = {}
         self.device_sockets: dict[DeviceSocket, None] = {}
         self.listeners: set[asyncio.Queue[dict[str, Any]]] = set()
         self.access = Access(self.options.host, self.options.tokens, self.options.hosts)
+        self.offers: list[str] = []
+        """which of the pages that not every server has this one has"""
         self.app = Gate(http.application(self), self.access, http.needed)
         self.stopping = asyncio.Event()
         self.began = time.monotonic()
@@ -80,6 +103,7 @@ class Server:
         self._failure: BaseException | None = None
         self._tasks: set[asyncio.Task[None]] = set()
         hub.on_batch.append(self._to_viewers)
+        hub.joints.on_rows.append(self._joint_to_viewers)
         hub.on_event.append(self._tell_event)
         hub.on_change.append(self._note_change)
 
@@ -136,7 +160,8 @@ class Server:
 
     async def _ticking(self) -> None:
         due, forget, listed = 0.0, 0.0, 0.0
-        slices: list[list[Device]] = []
+        slices: list[list[Device | Joint]] = []
+        headings: list[str] = []
         while True:
             self.hub.tick()
             now = time.monotonic()
@@ -151,8 +176,13 @@ class Server:
                 forget = now + _FLAGS_EVERY
                 self.hub.newest.forget_flags()
             if now > due:
-                due, devices = now + _HEALTH_EVERY, list(self.hub.devices.values())
+                due, devices = now + _HEALTH_EVERY, self.hub.shown
                 slices = [devices[k : k + _SLICE] for k in range(0, max(len(devices), 1), _SLICE)]
+                before, headings = (
+                    headings,
+                    [r.stream.heading_reference for d in self.hub.devices.values() for r in d.runs],
+                )
+                self._changed |= headings != before  # a magnetometer has spoken: zero means something else now
             if slices:
                 self._say(partial(self.health, slices.pop()))
             await asyncio.sleep(self.hub.pause)
@@ -189,11 +219,15 @@ class Server:
 
     async def _feed(self, source: Source) -> None:
         """A source's packets to the hub; what goes wrong with it is an event, and other devices go on."""
+        if hasattr(source, "tell"):
+            source.tell = lambda text: self.hub.event("source", None, text)
+        timebase = source.name if getattr(source, "one_clock", False) else ""
         try:
             async for arrival in source.arrivals():
                 device = self.hub.devices.get(arrival.device)
                 try:
                     device = self.hub.device(arrival.device, source.name, source.shape)
+                    device.timebase = timebase
                     device.receive(arrival.rows, time.monotonic(), arrival.sequence)
                 except PoiseError as problem:
                     self._refused(device, source.name, problem)
@@ -222,11 +256,17 @@ class Server:
                 viewer.say(text)
 
     def _to_viewers(self, batch: Batch) -> None:
+        self._put_records(batch.records)
+
+    def _joint_to_viewers(self, joint: Joint, attitude: Attitude, records: NDArray[np.void]) -> None:
+        self._put_records(lambda: records)
+
+    def _put_records(self, records: Callable[[], NDArray[np.void]]) -> None:
         every = [viewer for viewer in self.viewers if viewer.wants_every]
         if every:
-            frame = frames.attitudes(batch.records(), self.next_frame())
+            frame = frames.attitudes(records(), self.next_frame())
             for viewer in every:
-                viewer.put(batch, frame)
+                viewer.put(records, frame)
 
     def _tell_event(self, event: dict[str, Any]) -> None:
         self._say(lambda: event)
@@ -263,28 +303,43 @@ class Server:
             "may_write": may_write,
             "methods": described(),
             "flags": {f.bit_length() - 1: [f.name, SENTENCES[f]] for f in Flag},
+            "invalid_flags": INVALID,
+            "offers": self.offers,
             "recording": self.recorder.condition() if self.recorder else None,
+            "films": len(self.films),
+            "events": list(self.hub.events)[-_PAST_EVENTS:],
         }
 
     def device_list(self) -> dict[str, Any]:
         """All devices, for pages."""
-        return {"type": "devices", "devices": [device.described() for device in self.hub.devices.values()]}
+        return {
+            "type": "devices",
+            "devices": [
+                *(device.described() for device in self.hub.devices.values()),
+                *(joint.described(self.hub.devices) for joint in self.hub.joints.all.values()),
+            ],
+        }
 
-    def health(self, devices: Iterable[Device] | None = None) -> dict[str, Any]:
-        """How *devices* fare, all unless told."""
+    def health(self, devices: Iterable[Device | Joint] | None = None) -> dict[str, Any]:
+        """How *devices* and joints fare, all unless told."""
+        hub = self.hub
         waits = self.hub.waits
         now = time.monotonic()
         return {
             "type": "health",
             "time": time.time(),
-            "devices": [device.condition(now) for device in devices or self.hub.devices.values()],
+            "devices": hub.conditions(devices or hub.shown, now),
             "viewers": len(self.viewers),
             "wait_ms": {"p50": round(1e3 * waits.quantile(0.5), 3), "p99": round(1e3 * waits.quantile(0.99), 3)},
             "recording": self.recorder.condition() if self.recorder else None,
         }
 
     def change(self, kind: str, asked: dict[str, Any]) -> None:
-        """What someone who may write asks for: ``methods`` or ``reset_heading``. Raises :class:`PoiseError`."""
+        """What someone who may write asks for: one of ``sockets._CHANGES``. Raises :class:`PoiseError`."""
+        if kind == "joint":
+            return self.hub.set_joint(*(str(asked.get(key, "")) for key in ("name", "segment", "base")))
+        if kind == "remove_joint":
+            return self.hub.remove_joint(str(asked.get("name")))
         device = self.hub.find(str(asked.get("device")))
         if kind == "methods":
             self.hub.set_methods(device, choices(asked.get("methods")))
@@ -293,6 +348,7 @@ class Server:
             if forward not in ("x", "y", "z", "-x", "-y", "-z"):
                 raise HubError(f"forward: expected a body axis such as y or -x, found {forward!r}")
             self.hub.reset_heading(device, forward)
+        return None
 
     async def events(self, after: int) -> AsyncIterator[dict[str, Any]]:
         """Events numbered above *after*, those of the past first."""

@@ -7,6 +7,7 @@ import resource
 import socket
 from collections.abc import Coroutine
 from contextlib import suppress
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from poise.errors import PoiseError
@@ -14,6 +15,7 @@ from poise.errors import PoiseError
 if TYPE_CHECKING:
     from poise.live.server import Server
 
+_NEEDED = ("starlette", "uvicorn", "websockets", "cryptography", "segno")
 _MOST_BYTES = 1 << 20  # of a message that comes in
 _CLOSING = 0.5  # s
 _MOST_CONNECTIONS = 20_000
@@ -74,12 +76,10 @@ def run(work: Coroutine[Any, Any, None]) -> None:
 
 def check_installed() -> None:
     """Raises :class:`PoiseError` where the extra is not installed."""
-    try:
-        import starlette  # noqa: F401
-        import uvicorn  # noqa: F401
-        import websockets  # noqa: F401
-    except ImportError as problem:
-        raise PoiseError(f'`poise live` needs the extra "live": pip install "poise[live]" ({problem})') from None
+    missing = [name for name in _NEEDED if find_spec(name) is None]
+    if missing:
+        text = f'`poise live` needs the extra "live": pip install "poise[live]" (missing: {", ".join(missing)})'
+        raise PoiseError(text)
 
 
 def _allow_connections() -> None:

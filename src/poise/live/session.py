@@ -50,10 +50,10 @@ class Session:
     """
 
     def __init__(self, folder: Path) -> None:
-        self.folder, self._journal = folder, folder / _JOURNAL
+        self.folder, self.journal, self.root = folder, folder / _JOURNAL, folder
         try:
-            self._journal.mkdir(parents=True, exist_ok=True)
-            self._held = os.open(self._journal / "held", os.O_RDWR | os.O_CREAT, 0o644)
+            self.journal.mkdir(parents=True, exist_ok=True)
+            self._held = os.open(self.journal / "held", os.O_RDWR | os.O_CREAT, 0o644)
         except OSError as problem:
             raise SessionError(f"{folder}: cannot be recorded to: {problem.strerror}") from None
         try:
@@ -61,7 +61,7 @@ class Session:
         except OSError:
             os.close(self._held)
             raise SessionError(f"{folder}: another process is recording there; end it first") from None
-        self.number = max((number for number, _ in self._files()), default=0)
+        self.number = max((number for number, _ in self.files()), default=0)
         self.found = Found()
 
     @classmethod
@@ -69,20 +69,23 @@ class Session:
         """The session below *folder* that was not finished, the youngest, or a new one named after the time."""
         unfinished = interrupted(folder)
         name = datetime.now(UTC).strftime("%Y-%m-%dT%H-%M-%S")
-        return cls(unfinished[-1] if unfinished else _unused(folder / name))
+        made = cls(unfinished[-1] if unfinished else _unused(folder / name))
+        made.root = folder  # where its finished neighbours are
+        return made
 
-    def _files(self) -> list[tuple[int, Path]]:
-        return sorted((int(path.stem), path) for path in self._journal.glob("*.log") if path.stem.isdecimal())
+    def files(self) -> list[tuple[int, Path]]:
+        """The journal files by their numbers."""
+        return sorted((int(path.stem), path) for path in self.journal.glob("*.log") if path.stem.isdecimal())
 
     # -- writing --------------------------------------------------------------------------------------------------
 
     def new_file(self) -> int:
         """A new journal file, open for appending, its name durable."""
         self.number += 1
-        path = self._journal / f"{self.number:06d}.log"
+        path = self.journal / f"{self.number:06d}.log"
         file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_APPEND, 0o644)
         try:
-            _sync(self._journal)
+            _sync(self.journal)
         except OSError:
             os.close(file)
             raise
@@ -90,20 +93,20 @@ class Session:
 
     def failed(self) -> None:
         """The last file could not be written to; where nothing is in it, it goes."""
-        path = self._journal / f"{self.number:06d}.log"
+        path = self.journal / f"{self.number:06d}.log"
         with suppress(OSError):
             if path.stat().st_size == 0:
                 path.unlink()
 
     def free(self, number: int) -> None:
         """Nothing after journal file *number* needs it, or one before it, to go on: they become Parquet files."""
-        for each, path in self._files():
+        for each, path in self.files():
             if each <= number:
                 self._convert(each, path)
 
     def _convert(self, number: int, path: Path) -> None:
         try:
-            self.found.samples += parts.convert(path, number, self._journal)
+            self.found.samples += parts.convert(path, number, self.journal)
             path.unlink()
         except (OSError, PoiseError):
             return  # the disk is full: `finish` tries again, and the journal file holds it all meanwhile
@@ -114,13 +117,13 @@ class Session:
         Raises :class:`SessionError` where they cannot be written; then the journal stays, and `poise recover` goes on.
         """
         try:
-            for number, path in self._files():
-                self.found.samples += parts.convert(path, number, self._journal)
+            for number, path in self.files():
+                self.found.samples += parts.convert(path, number, self.journal)
                 path.unlink()
-            made = parts.join(self._journal, self.folder)
-            for path in self._journal.iterdir():
+            made = parts.join(self.journal, self.folder)
+            for path in self.journal.iterdir():
                 path.unlink()
-            self._journal.rmdir()
+            self.journal.rmdir()
             os.close(self._held)
             if not made:
                 with suppress(OSError):
@@ -133,7 +136,7 @@ class Session:
 
     def cut(self) -> Found:
         """Cuts torn tails off the journal files; what was found in them."""
-        for _, path in self._files():
+        for _, path in self.files():
             self.found.files += 1
             for block in journal.read(path):
                 if isinstance(block, journal.Torn):
@@ -146,7 +149,7 @@ class Session:
         hub's next ticks."""
         last: dict[str, dict[str, Any]] = {}
         since: dict[str, list[tuple[int, Floats]]] = defaultdict(list)
-        for _, path in self._files():
+        for _, path in self.files():
             for block in journal.read(path):
                 if isinstance(block, journal.Torn):
                     os.truncate(path, block.good)

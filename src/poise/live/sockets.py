@@ -6,34 +6,43 @@ import asyncio
 import json
 import time
 from collections import deque
-from collections.abc import MutableMapping
+from collections.abc import Callable, MutableMapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from poise.errors import PoiseError
 from poise.live import frames, texts
 from poise.live.hub import HubError
 from poise.live.methods import Choice
+from poise.live.motion import Motion, asked
 
 if TYPE_CHECKING:
     from poise.live.access import Receive, Send
-    from poise.live.batch import Batch
     from poise.live.server import Server
 
 _MOST_ERRORS = 10
+_CHANGES = ("methods", "reset_heading", "joint", "remove_joint")  # what takes the scope `write`
 _EVERY_FRAMES, _EVERY_BYTES = 512, 8 << 20  # that may wait for a viewer of every sample
 _POLICY, _TRY_LATER = 1008, 1013  # close codes
+_RAW_MOTION = bytes((frames.MOTION,))
+_NOTE_EVERY = 0.5  # s between notes of one device
 _BURST = 1.0  # s of samples at the highest rate that may come at once
 
 
 class DeviceSocket:
     """One connection of a device: ``/ws/device/NAME``."""
 
-    def __init__(self, server: Server, name: str, send: Send) -> None:
+    def __init__(self, server: Server, name: str, send: Send, query: bytes = b"") -> None:
         self._server, self._send, self._errors = server, send, 0
-        self.device = server.hub.device(name, "websocket")
+        shape, axes = asked(query)
+        self.device = server.hub.device(name, "websocket", shape or "board")
+        if shape not in (None, self.device.shape):
+            server.hub.reshape(self.device, shape)
+        self._motion = Motion(self.device, axes, self._event)
+        self._noted = 0.0
         self._allowance, self._filled = _BURST * server.hub.max_rate, time.monotonic()
         self._lock = asyncio.Lock()
         self._news: dict[str, dict[str, Any]] = {}
@@ -52,7 +61,7 @@ class DeviceSocket:
                 now = time.monotonic()
                 try:
                     data = message.get("bytes")
-                    new = device.receive_frame(data, now) if data is not None else self._text(message["text"], now)
+                    new = self._bytes(data, now) if data is not None else self._text(message["text"], now)
                 except PoiseError as problem:
                     device.health.rejected += 1
                     self._errors += 1
@@ -67,9 +76,25 @@ class DeviceSocket:
             device.connected -= 1
             del self._server.device_sockets[self]
 
+    def _bytes(self, data: bytes, now: float) -> int:
+        if data[1:2] != _RAW_MOTION:
+            return self.device.receive_frame(data, now)
+        new = self._motion.take(data, now)
+        for answer in self._motion.answers(self._server.hub.newest):
+            self.note(**answer)
+        return new
+
     def _text(self, text: str, now: float) -> int:
+        if (note := texts.note(text)) is not None:
+            if now - self._noted > _NOTE_EVERY:
+                self._noted = now
+                self._event("note", f"{self.device.name}: {note}")
+            return 0
         rows, sequence = texts.from_json(text)
         return self.device.receive(rows, now, sequence)
+
+    def _event(self, kind: str, text: str) -> None:
+        self._server.hub.event(kind, self.device, text)
 
     async def _too_fast(self, now: float) -> bool:
         """Whether the device sends faster than allowed, for longer than a burst; then its connection is closed."""
@@ -196,20 +221,21 @@ class Viewer:
             self.say({"type": "dropped", "frames": self._dropped})
 
     def _numbers(self) -> list[int]:
-        devices = self._server.hub.devices
-        return [devices[name].number for name in self._wanted or () if name in devices]
+        hub = self._server.hub
+        both = (hub.devices.get(name) or hub.joints.all.get(name) for name in self._wanted or ())
+        return [each.number for each in both if each is not None]
 
     @property
     def wants_every(self) -> bool:
         """Whether it is to get every sample, not the newest."""
         return self._every is not None
 
-    def put(self, batch: Batch, frame: bytes) -> None:
-        """One more *frame* of every sample; where too many wait, the oldest is dropped and counted."""
+    def put(self, records: Callable[[], NDArray[np.void]], frame: bytes) -> None:
+        """One more *frame*, of every one of *records*; where too many wait, the oldest is dropped and counted."""
         if self._every is None:
             return
         if self._wanted is not None:
-            found = batch.records()
+            found = records()
             found = found[np.isin(found["device"], self._numbers())]
             if not len(found):
                 return
@@ -229,12 +255,12 @@ class Viewer:
             kind = asked.get("type") if isinstance(asked, dict) else None
             if kind == "subscribe":
                 self._subscribe(asked)
-            elif kind in ("methods", "reset_heading"):
+            elif kind in _CHANGES:
                 if not self._may_write:
                     raise HubError("this token may look, not change: a token with the scope 'write' is needed")
                 self._server.change(kind, asked)
             else:
-                raise HubError(f"message type {kind!r}: expected subscribe, methods or reset_heading")
+                raise HubError(f"message type {kind!r}: expected subscribe, {', '.join(_CHANGES)}")
             self.say({"type": "done", "id": asked.get("id"), "what": kind})
         except (PoiseError, ValueError, TypeError, KeyError, RecursionError) as problem:
             asked = locals().get("asked")

@@ -14,23 +14,28 @@ if TYPE_CHECKING:
     from poise.data.recording import Recording
     from poise.live.described import Description
 
-WORDS = "ws, replay:FILE[@SPEED], udp:[HOST]:PORT, serial:PORT, mqtt://HOST[:PORT]/[TOPIC]"
+WORDS = "ws, phone, replay:FILE[@SPEED], sim:WORLD[@SPEED], udp:[HOST]:PORT, serial:PORT, mqtt://HOST[:PORT]/[TOPIC], ble:NAME"
 
 
 def source(word: str, read: Callable[[Path], Recording], description: Description | None = None) -> Source | None:
-    """The source that *word* names; None for ``ws``, devices that connect by themselves.
+    """The source that *word* names; None for ``ws`` and ``phone``, devices that connect by themselves.
 
     *description* is what the bytes of a serial port, datagrams and messages mean. Raises :class:`DeviceError` for a word that
     names none.
     """
     kind, _, rest = word.partition(":")
-    if word == "ws":
+    if word in ("ws", "phone"):
         return None
     if kind == "replay" and rest:
         from poise.live.replay import Replay
 
         file, speed = _speed(rest)
         return Replay(read(Path(file)), speed=speed)
+    if kind == "sim" and rest:
+        from poise.live.simulated import Simulated
+
+        world, speed = _speed(rest)
+        return Simulated.of(world, speed)
     if kind == "udp":
         from poise.live.udp import Udp
 
@@ -42,11 +47,26 @@ def source(word: str, read: Callable[[Path], Recording], description: Descriptio
         from poise.live.serial_port import SerialPort
 
         return SerialPort(rest, description)
+    if kind == "ble" and rest:
+        from poise.live.ble import Ble
+
+        return Ble(rest, description)
     if kind in ("mqtt", "mqtts"):
         from poise.live.mqtt import Mqtt
 
         return Mqtt(word, description)
     raise DeviceError(f"{word!r} is no source; expected one of {WORDS}")
+
+
+def apart(sources: list[Source]) -> list[Source]:
+    """*sources*, where no two of them would send as one simulated device; else raises :class:`DeviceError`."""
+    taken: set[str] = set()
+    for each in sources:
+        names: tuple[str, ...] = getattr(each, "devices", ())
+        if both := taken.intersection(names):
+            raise DeviceError(f"{min(both)}: two sources send as this device; give one a name: sim:WORLD?name=NAME")
+        taken.update(names)
+    return sources
 
 
 def _speed(text: str) -> tuple[str, float]:

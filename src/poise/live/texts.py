@@ -39,6 +39,18 @@ def from_json(text: str | bytes) -> tuple[Floats, int]:
     return rows_of(values), sequence
 
 
+def note(text: str) -> str | None:
+    """What a device has to say for people: the text of ``{"type": "note", "text": "…"}``; None: something else."""
+    if not text.startswith('{"type"'):
+        return None
+    try:
+        found = json.loads(text)
+    except (ValueError, RecursionError):
+        return None
+    said = found.get("text") if found.get("type") == "note" else None
+    return " ".join(said.split())[:200] if isinstance(said, str) else None
+
+
 def rows_of(values: dict[str, Any]) -> Floats:
     """(n, 12) rows of ``time`` (n,), ``gyr``, ``acc`` and ``mag`` (n, 3). Raises :class:`FrameError`."""
     try:

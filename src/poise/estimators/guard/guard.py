@@ -7,6 +7,7 @@ from typing import Annotated, Any, NamedTuple
 
 from poise.data.flags import HEADING_ARBITRARY, INITIALISING, LOST, RESET, UNSETTLED
 from poise.data.packet import Output, Sample
+from poise.estimators.guard.field import Field, begun, looked_at, plainly_across, unknown, vertical
 from poise.estimators.guard.levelling import (
     NOT_YET,
     REST_RATE,
@@ -40,6 +41,7 @@ class State(NamedTuple):
     started: bool  # an accelerometer sample has given an attitude
     aligned: bool  # the heading is known: from a magnetometer sample, or given at the start
     mag_seen: bool  # the magnetometer has spoken
+    field: Field  # whether what it says tells a heading
     lost: bool  # the motion was not measured for too long: start anew when it is again
     gyr_absent: float  # s
     acc_absent: float
@@ -94,6 +96,8 @@ class Guard(NamedTuple):
         mag = mag if dot(mag, mag) > mag_limits(self, ZERO).least else ABSENT
         gyr = sample.gyr if dot(sample.gyr, sample.gyr) <= self.largest_gyr**2 else bias  # NaN is not
         seen = present(acc)
+        points = begun(with_sensors(sample, gyr, acc, mag), self.gravity)
+        mag = ABSENT if vertical(points) else mag
         placeholder = resting_sample(IDENTITY, self.declination)
         first = with_sensors(sample, gyr, acc if seen else placeholder.acc, mag if seen else ABSENT)
         inner = start(self.method, first, bias)
@@ -104,7 +108,7 @@ class Guard(NamedTuple):
         return State(
             inner, fresh(gyr, gyr_limits(self)), fresh(acc if seen else ZERO, acc_limits(self)),
             fresh(field, mag_limits(self, field)), UNKNOWN, NOT_YET, 0.0, False,
-            seen, aligned, False, False, 0.0, 0.0, 0.0, 0.0, 0.0, flags,
+            seen, aligned, False, points, False, 0.0, 0.0, 0.0, 0.0, 0.0, flags,
         )  # fmt: skip
 
     def step(self, state: State, sample: Sample) -> State:
@@ -123,7 +127,15 @@ class Guard(NamedTuple):
         if (ordinary or look.usable) and within(clean.gyr, REST_RATE) and at_rest(clean, self.gravity):
             astray = _astray(self, astray, clean, output(self.method, inner, clean).attitude)
         lost = astray > self.astray_time
-        flags = (LOST if lost else 0) | (0 if state.aligned else HEADING_ARBITRARY)
+        points = state.field
+        if not plainly_across(points, sample):
+            up, time = (
+                up_in_body(output(self.method, inner, clean).attitude),
+                min(max(state.mag.every, clean.dt), self.gap),
+            )
+            points = looked_at(points, up, sample.mag, time)
+        aligned = state.aligned and not (vertical(points) and unknown(points))
+        flags = (LOST if lost else 0) | (0 if aligned and not unknown(points) else HEADING_ARBITRARY)
         if ordinary:
             still, silent = within(clean.gyr, REST_RATE), state.mag_absent + clean.dt
             mag, has_mag = state.mag, present(clean.mag)
@@ -132,12 +144,12 @@ class Guard(NamedTuple):
             return State(
                 inner, taken(state.gyr, clean.gyr, change(state.gyr, clean.gyr), clean.dt, still),
                 taken(state.acc, clean.acc, change(state.acc, clean.acc), clean.dt, still), mag,
-                counted_on(state.pace, clean.dt), state.levelling, clean.dt, not lost, True, state.aligned, state.mag_seen,
-                lost, 0.0, 0.0, 0.0 if has_mag else silent, astray, 0.0, flags,
+                counted_on(state.pace, clean.dt), state.levelling, clean.dt, not lost, True, aligned, state.mag_seen,
+                points, lost, 0.0, 0.0, 0.0 if has_mag else silent, astray, 0.0, flags,
             )  # fmt: skip
         return State(
             inner, look.gyr, look.acc, look.mag, look.pace, NOT_YET, clean.dt, look.usable and look.doubt == 0.0,
-            True, state.aligned, look.mag_seen, lost, look.gyr_absent, look.acc_absent, look.mag_absent, astray,
+            True, aligned, look.mag_seen, points, lost, look.gyr_absent, look.acc_absent, look.mag_absent, astray,
             look.doubt, look.flags | flags,
         )  # fmt: skip
 
@@ -175,7 +187,7 @@ def _waiting(guard: Guard, state: State, look: Look) -> State:
         flags |= 0 if state.aligned else HEADING_ARBITRARY
         return State(
             state.inner, look.gyr, look.acc, look.mag, look.pace, levelling, sample.dt, False,
-            state.started, state.aligned, look.mag_seen, lost, look.gyr_absent, look.acc_absent, look.mag_absent,
+            state.started, state.aligned, look.mag_seen, state.field, lost, look.gyr_absent, look.acc_absent, look.mag_absent,
             0.0, doubt, flags,
         )  # fmt: skip
     before = output(guard.method, state.inner, sample)
@@ -192,7 +204,7 @@ def _waiting(guard: Guard, state: State, look: Look) -> State:
     flags |= (0 if aligned else HEADING_ARBITRARY) | (UNSETTLED if doubt > guard.valid_doubt else 0)
     return State(
         inner, look.gyr, look.acc, look.mag, look.pace, NOT_YET, sample.dt, doubt == 0.0,
-        True, aligned, look.mag_seen, False, look.gyr_absent, look.acc_absent, look.mag_absent, 0.0, doubt, flags,
+        True, aligned, look.mag_seen, state.field, False, look.gyr_absent, look.acc_absent, look.mag_absent, 0.0, doubt, flags,
     )  # fmt: skip
 
 

@@ -22,6 +22,7 @@ from poise.data.flags import (
     UNSETTLED,
 )
 from poise.data.packet import Sample
+from poise.estimators.guard.field import vertical
 from poise.estimators.guard.levelling import REST_RATE
 from poise.estimators.guard.samples import (
     CLIPPED,
@@ -69,7 +70,7 @@ class Look(NamedTuple):
     flags: int
 
 
-_EMPTY = fresh(ZERO, Limits(0.0, 0.0, 0.0, 0.0))
+_EMPTY = fresh(ZERO, Limits(0.0, 0.0, 0.0, 0.0, 0.0))
 NOTHING = Look(
     _EMPTY, _EMPTY, _EMPTY, UNKNOWN, Sample(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, 0.0, 0.0, 0.0),
     False, False, False, False, 0.0, 0.0, 0.0, False, 0.0, 0,
@@ -83,6 +84,7 @@ def common(guard: Guard, state: State, sample: Sample) -> bool:
     by_mag = change(mag, sample.mag)
     if by_mag - by_mag == 0.0:
         field = usual(mag, sample.mag, by_mag, mag_limits(guard, mag.value)) and state.aligned and state.mag_seen
+        field = field and not vertical(state.field)
     else:  # a large enough number may overflow in the square: that is for a closer look
         silent = state.mag_absent + sample.dt > max(guard.mag_loss, 3.0 * mag.every)
         field = not present(sample.mag) and not (silent and state.mag_seen)
@@ -141,14 +143,15 @@ def examined(guard: Guard, state: State, sample: Sample) -> Look:
     turning = _across(gyr.value, acc.value) > REST_RATE
     found = judged(acc, sample.acc, acc_age, spiked and not shaken, turning, still, guard.stuck_time, of_acc)
     acc, acc_verdict = found.channel, found.verdict
-    has_acc = present(found.value) and acc_verdict != CLIPPED
+    has_acc = present(found.value)
     turning = _across(gyr.value, mag.value) > REST_RATE
     spiked = state.mag_seen and jumped(mag, by_mag, mag_age, usual_step, of_mag)
     if not state.mag_seen and mag.most == 0.0 and present(sample.mag):
         mag, of_mag = fresh(sample.mag, mag_limits(guard, sample.mag)), mag_limits(guard, sample.mag)
-    found = judged(mag, sample.mag, mag_age, spiked, turning, still, guard.stuck_time, of_mag)
+    since = min(mag_age, max(mag.every, dt)) if vertical(state.field) else mag_age  # left out, but there
+    found = judged(mag, sample.mag, since, spiked, turning, still, guard.stuck_time, of_mag)
     mag, mag_verdict = found.channel, found.verdict
-    has_mag = present(found.value) and mag_verdict != CLIPPED
+    has_mag = present(found.value) and mag_verdict != CLIPPED and not vertical(state.field)
     flags |= _told(gyr_verdict, GYR_IGNORED, STUCK_GYR, GYR_CLIPPED)
     flags |= _told(acc_verdict, ACC_IGNORED, STUCK_ACC, ACC_CLIPPED)
     if guard.follows_mag:
@@ -274,17 +277,17 @@ def _across(rate: Vec3, v: Vec3) -> float:
 @compiled
 def gyr_limits(guard: Guard) -> Limits:
     """A jump of 3 rad/s between two samples is beyond limbs and robots; no gyroscope ends below 125 deg/s."""
-    return Limits(3.0, 2.1, -1.0, guard.largest_gyr)
+    return Limits(3.0, 1.0, 2.1, -1.0, guard.largest_gyr)
 
 
 @compiled
 def acc_limits(guard: Guard) -> Limits:
-    """A jump of 4 g takes a blow; no accelerometer ends below 2 g."""
-    return Limits(4.0 * guard.gravity, 18.0, 1e-6, guard.largest_acc)
+    """A jump of 4 g takes a blow; few accelerometers end below 2 g; at rest none shows more than g and its own error."""
+    return Limits(4.0 * guard.gravity, 1.1 * guard.gravity, 18.0, 1e-6, guard.largest_acc)
 
 
 @compiled
 def mag_limits(guard: Guard, last: Vec3) -> Limits:
     """Whatever its unit: a jump is as long as the field itself, and no range ends below twice that of the Earth."""
     length = norm(last)
-    return Limits(length, 2.0 * length, 1e-18, guard.largest_mag)
+    return Limits(length, 2.0 * length, 2.0 * length, 1e-18, guard.largest_mag)

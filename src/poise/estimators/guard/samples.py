@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import log
 from typing import NamedTuple
 
 from poise.math.compiled import compiled
@@ -11,6 +12,11 @@ FINE, SPIKE, STUCK, CLIPPED = 0, 1, 2, 3
 _MEAN_TIME = 0.3  # s over which the usual change from sample to sample is averaged
 _JUMP, _STIR = 64.0, 16.0  # squares: 8 times the usual change is a jump, 4 times it shows that something happened
 _TOLERANCE = 1e-4  # of the range: one end may lie a quantum further out than the other
+_PROVEN = 10.0  # of evidence, a natural logarithm: less than one in 20 000 that the range does not end there
+_LIKELY = 2.5  # of it with each sample beyond the least range that data sheets have
+_SHARE = 4e-3  # of a new row in how often a component repeats by chance
+_LINGERS = 10.0  # the coarser a sensor, the longer it stays at one value about a peak
+_AT_FIRST, _RAREST = 0.1, 2e-3  # of that; a smaller share than the last cannot be told from none
 _SLOWEST = 0.1  # s between samples: at a slower sensor a jump says nothing
 _SHORT = 0.05  # s: no repetition to look at
 _IN_MOTION, _AT_REST = 0.5, 1.5  # s of changing samples before one that repeats is thought to hang
@@ -21,8 +27,9 @@ class Channel(NamedTuple):
 
     value: Vec3  # the last sample that was a measurement
     change: float  # mean square of the change from sample to sample
-    most: float  # the largest component so far, or the end of the range
-    equals: int  # how often exactly that came again
+    most: float  # the largest component so far, once more than a sensor shows at rest
+    evidence: float  # that the range ends there
+    repeats: float  # share of the components that are those of the row before: large in a coarse sensor
     same: float  # s since the value changed
     longest: float  # s that it has been the same before, by nature: a logger may repeat a slower sensor
     lively: float  # s of changing samples, those in motion counted up to 1: a coarse sensor is lively in motion only
@@ -34,7 +41,8 @@ class Limits(NamedTuple):
     """Where a sensor's samples become doubtful, from what sensors and motions can do."""
 
     jump: float  # a smaller change is never a spike
-    range: float  # no sensor's range is smaller: data sheets
+    resting: float  # a sensor that rests may show it, over and over
+    range: float  # hardly a sensor's range is smaller: data sheets
     least: float  # square of the smallest vector that points somewhere; zeros are silence, but not a gyroscope's
     most: float  # more is no measurement of anything
 
@@ -49,7 +57,7 @@ class Judged(NamedTuple):
 
 @compiled
 def fresh(value: Vec3, limits: Limits) -> Channel:
-    return Channel(value, 0.0, limits.range, 0, 0.0, 0.0, 0.0, 0.0, 0)
+    return Channel(value, 0.0, limits.resting, 0.0, _AT_FIRST, 0.0, 0.0, 0.0, 0.0, 0)
 
 
 @compiled
@@ -78,11 +86,15 @@ def taken(channel: Channel, value: Vec3, changed: float, dt: float, still: bool)
     every = dt if channel.every == 0.0 else channel.every + 0.1 * (min(dt, 2.0 * channel.every + 0.05) - channel.every)
     if changed == 0.0:
         return Channel(
-            value, mean, channel.most, channel.equals, channel.same + dt, channel.longest, channel.lively, every, 0
+            value, mean, channel.most, channel.evidence, channel.repeats, channel.same + dt, channel.longest,
+            channel.lively, every, 0,
         )  # fmt: skip
     longest = max(channel.longest, channel.same)
     lively = channel.lively + dt if channel.lively < (2.0 if still else 1.0) else channel.lively
-    return Channel(value, mean, channel.most, channel.equals, 0.0, longest, lively, every, 0)
+    old = channel.value
+    again = (1.0 if value.x == old.x else 0.0) + (1.0 if value.y == old.y else 0.0) + (1.0 if value.z == old.z else 0.0)
+    repeats = channel.repeats + _SHARE * (again / 3.0 - channel.repeats)
+    return Channel(value, mean, channel.most, channel.evidence, repeats, 0.0, longest, lively, every, 0)
 
 
 @compiled
@@ -120,23 +132,27 @@ def judged(
         c = _forgiven(c, channel.longest)  # it hung: that is not its nature
     largest = max(abs(value.x), abs(value.y), abs(value.z))
     if largest > (1.0 + _TOLERANCE) * c.most:
-        return Judged(value, _widened(c, largest, 0), FINE)
-    if largest >= (1.0 - _TOLERANCE) * c.most:
-        equals = min(c.equals + 1, 3)
-        return Judged(value, _widened(c, c.most, equals), CLIPPED if equals >= 2 else FINE)
+        return Judged(value, _widened(c, largest, 0.0), FINE)
+    if largest >= (1.0 - _TOLERANCE) * c.most:  # by chance as rarely as a component repeats, where the range goes on
+        chance = max(c.repeats, _RAREST) * (1.0 + _LINGERS * c.repeats)
+        by_this = (_LIKELY if largest >= limits.range else 0.0) - log(min(chance, 1.0))
+        c = _widened(c, c.most, min(c.evidence + (by_this if changed > 0.0 else 0.0), 2.0 * _PROVEN))
+        return Judged(value, c, CLIPPED if c.evidence >= _PROVEN else FINE)
     return Judged(value, c, FINE)
 
 
 @compiled
 def _rejected(c: Channel) -> Channel:
-    return Channel(c.value, c.change, c.most, c.equals, c.same, c.longest, c.lively, c.every, c.rejected + 1)
+    return Channel(
+        c.value, c.change, c.most, c.evidence, c.repeats, c.same, c.longest, c.lively, c.every, c.rejected + 1
+    )  # fmt: skip
 
 
 @compiled
 def _forgiven(c: Channel, longest: float) -> Channel:
-    return Channel(c.value, c.change, c.most, c.equals, c.same, longest, c.lively, c.every, c.rejected)
+    return Channel(c.value, c.change, c.most, c.evidence, c.repeats, c.same, longest, c.lively, c.every, c.rejected)
 
 
 @compiled
-def _widened(c: Channel, most: float, equals: int) -> Channel:
-    return Channel(c.value, c.change, most, equals, c.same, c.longest, c.lively, c.every, c.rejected)
+def _widened(c: Channel, most: float, evidence: float) -> Channel:
+    return Channel(c.value, c.change, most, evidence, c.repeats, c.same, c.longest, c.lively, c.every, c.rejected)

@@ -129,7 +129,9 @@ class SelfCalibrating(NamedTuple):
         float, "s", "σ of the accelerometer's delay, beside half a sampling interval", (0.0, 1.0)
     ] = 0.001
     rest_time: Annotated[float, "s", "how long the sensor must hold still before that counts as rest"] = 1.5
-    rest_gyr: Annotated[float, "rad/s", "largest mean rate, and distance from it, at rest, per axis"] = radians(2.0)
+    rest_gyr: Annotated[
+        float, "rad/s", "largest mean rate, or distance of it from the bias, and of a sample from it, at rest, per axis"
+    ] = radians(2.0)
     rest_acc: Annotated[float, "m/s²", "largest distance of a still specific force from its mean, per axis"] = 0.5
     rest_noise: Annotated[float, "rad/s", "how far a block's mean rate at rest is from the bias", (1e-9, 10.0)] = 3e-4
     rest_speed: Annotated[float, "m/s", "pseudo-velocity of a block at rest", (1e-9, 1e3)] = 0.01
@@ -206,7 +208,9 @@ class SelfCalibrating(NamedTuple):
             clipped = clipped + T * clipped_columns(R, sample.gyr, 0.98 * self.gyr_range)
         share = T / (0.5 + T)
         mean_gyr = state.mean_gyr + share * (sample.gyr - state.mean_gyr)
-        still = within(sample.gyr - mean_gyr, self.rest_gyr) and within(mean_gyr, self.rest_gyr)
+        still = within(sample.gyr - mean_gyr, self.rest_gyr) and (
+            within(mean_gyr, self.rest_gyr) or within(mean_gyr - state.bias, self.rest_gyr)
+        )
         mean_acc = state.mean_acc
         force, force_late, force_time, excess = s.force, s.force_late, s.force_time, s.excess_square
         if present(f):

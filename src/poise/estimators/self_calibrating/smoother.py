@@ -14,11 +14,13 @@ from poise.data.flags import KNOWN
 from poise.data.learned import Learned
 from poise.data.recording import Recording
 from poise.errors import MethodError, RecordingError
-from poise.estimators.engine import Stream, at_gravity, feed
+from poise.estimators.batch import feed
+from poise.estimators.engine import Stream
 from poise.estimators.self_calibrating.backward import apply, back
 from poise.estimators.self_calibrating.causal import SelfCalibrating
 from poise.estimators.self_calibrating.model import COLUMNS as WIDTH
 from poise.estimators.self_calibrating.model import ENTRIES, ENTRY, SENSOR, SIZE, Floats
+from poise.estimators.wrapping import at_gravity
 from poise.math.vectors import Vec3
 
 _PART = 1024  # rows of a recording at a time: what they log stays near the processor

@@ -215,6 +215,12 @@ class World:
             source="simulation",
         )
 
+    def forget(self) -> None:
+        """Drop what :meth:`recording` has so far: for a world that runs without an end."""
+        for name in self.sensors:
+            n = len(self._log[name]) // 10
+            del self._log[name][:], self._sent[name][: 11 * n]
+
     def render(self, width: int = 640, height: int = 480) -> NDArray[np.uint8]:
         """(height, width, 3) a picture of this moment, without a screen."""
         return self.physics.render(width, height, self.cameras)

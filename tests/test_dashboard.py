@@ -1,0 +1,397 @@
+"""The page of `poise live`, as a real browser shows it: what is drawn, what can be done, what happens when things go wrong."""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import math
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from browsing import chromium
+from live_helpers import Running, seen, serving, wait_for
+from poise.live import frames
+from poise.live.server import DASHBOARD
+from poise.live.watching import Watch
+
+WEB = Path(__file__).parents[1] / "web"
+RATE = 100.0
+TURN = 0.6  # rad/s
+WATCH = """
+window.violations = [];
+document.addEventListener("securitypolicyviolation", (event) => window.violations.push(event.violatedDirective));
+"""
+
+
+def turning(first: int, n: int, rate: float = TURN) -> NDArray[np.float64]:
+    """(n, 10) samples of a level device that turns to the left at *rate*, and points north at its sample 0."""
+    k = np.arange(first, first + n)
+    heading = rate * k / RATE
+    rows = np.zeros((n, 10))
+    rows[:, 0] = k / RATE
+    rows[:, 3] = rate
+    rows[:, 6] = 9.81
+    rows[:, 7], rows[:, 8], rows[:, 9] = 20.0 * np.sin(heading), 20.0 * np.cos(heading), -40.0
+    return rows
+
+
+def falling(first: int, n: int) -> NDArray[np.float64]:
+    """(n, 10) samples of a device that stands for two seconds, falls on its face in the next and lies there."""
+    k = np.arange(first, first + n)
+    t = k / RATE
+    tilt = np.clip(t - 2.0, 0.0, 1.0) ** 2 * 1.5
+    rows = np.zeros((n, 10))
+    rows[:, 0] = t
+    rows[:, 1] = -np.where((t > 2.0) & (t < 3.0), 3.0 * (t - 2.0), 0.0)
+    rows[:, 5], rows[:, 6] = -9.81 * np.sin(tilt), 9.81 * np.cos(tilt)
+    north = np.array([20.0, -40.0])
+    rows[:, 8] = north[0] * np.cos(tilt) - north[1] * np.sin(tilt)
+    rows[:, 9] = north[0] * np.sin(tilt) + north[1] * np.cos(tilt)
+    return rows
+
+
+class Sending(threading.Thread):
+    """Devices that send, at their rate, until told to stop."""
+
+    def __init__(self, live: Running, names: tuple[str, ...], samples: Any, first: int = 0) -> None:
+        super().__init__(daemon=True)
+        self.live, self.names, self.samples, self.sent = live, names, samples, first
+        self.ended = threading.Event()
+
+    def run(self) -> None:
+        from contextlib import ExitStack
+
+        with ExitStack() as stack:
+            devices = [stack.enter_context(self.live.device(name)) for name in self.names]
+            began, first = time.monotonic(), self.sent
+            while not self.ended.wait(0.02):
+                n = first + int((time.monotonic() - began) * RATE) - self.sent
+                if n <= 0:
+                    continue
+                frame = frames.encoded(self.samples(self.sent, n), self.sent)
+                for device in devices:
+                    device.send(frame)
+                self.sent += n
+
+    def end(self) -> None:
+        self.ended.set()
+        self.join(10.0)
+
+
+@contextmanager
+def sending(live: Running, *names: str, samples: Any = turning) -> Iterator[Sending]:
+    source = Sending(live, names, samples)
+    source.start()
+    try:
+        yield source
+    finally:
+        source.end()
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    with chromium() as found:
+        yield found
+
+
+class Shown:
+    """The page in a browser, and all that it did: requests, errors, violations of its policy."""
+
+    def __init__(self, browser: Any, live: Running, **options: Any) -> None:
+        self.context = browser.new_context(viewport={"width": 1280, "height": 900}, **options)
+        self.page = self.context.new_page()
+        self.page.set_default_timeout(30_000)
+        self.requests: list[str] = []
+        self.errors: list[str] = []
+        self.page.on("request", lambda request: self.requests.append(request.url))
+        self.page.on("console", lambda said: self.errors.append(said.text) if said.type == "error" else None)
+        self.page.on("pageerror", lambda error: self.errors.append(str(error)))
+        self.page.add_init_script(WATCH)
+        self.address = live.address
+
+    def open(self, fragment: str = "") -> Any:
+        self.page.goto(f"http://{self.address}/{fragment}")
+        return self.page
+
+    def drawn(self, device: str) -> dict[str, Any] | None:
+        found: dict[str, Any] | None = self.page.evaluate("(device) => window.poise.drawn(device)", device)
+        return found
+
+    def waits_for(self, expression: str) -> None:
+        wait_for(lambda: self.page.evaluate(expression), 40.0)
+
+    def must_be_clean(self) -> None:
+        """Nothing left the server, nothing was reported."""
+        assert self.page.evaluate("window.violations") == []
+        outside = [url for url in self.requests if not url.startswith((f"http://{self.address}/", "blob:", "data:"))]
+        assert outside == []
+        assert self.errors == []
+
+
+@contextmanager
+def page_of(browser: Any, live: Running, **options: Any) -> Iterator[Shown]:
+    shown = Shown(browser, live, **options)
+    try:
+        yield shown
+    finally:
+        shown.context.close()
+
+
+def test_the_bundle_is_that_of_the_sources() -> None:
+    digest = hashlib.sha256()
+    names = [f"src/{path.name}" for path in (WEB / "src").iterdir()] + ["build.mjs", "package.json", "tsconfig.json"]
+    for name in sorted(names):
+        digest.update(f"{name}\0".encode() + (WEB / name).read_bytes() + b"\0")
+    kept = (DASHBOARD / "sources.sha256").read_text().strip()
+    assert kept == digest.hexdigest(), "the bundle is older than its sources: cd web && npm install && npm run build"
+
+
+def test_the_bundle_names_its_licences_and_no_other_host() -> None:
+    licences = (DASHBOARD / "LICENSES.txt").read_text()
+    assert "three 0." in licences
+    assert "uplot 1." in licences
+    assert licences.count("MIT License") == 2
+    page = (DASHBOARD / "index.html").read_text()
+    assert "://" not in page
+    assert "style=" not in page
+
+
+def test_an_empty_server_says_how_devices_come(browser: Any) -> None:
+    with serving() as live, page_of(browser, live) as shown:
+        page = shown.open()
+        page.get_by_text("No device yet").wait_for()
+        assert f"ws://{live.address}/ws/device/NAME" in page.inner_text("main")
+        shown.must_be_clean()
+
+
+def test_the_body_turns_as_the_device_turns(browser: Any) -> None:
+    with serving() as live, page_of(browser, live) as shown, live.viewer(every=True) as viewer:
+        with sending(live, "turntable"):
+            shown.open()
+            shown.waits_for("window.poise.drawn('turntable')?.sequence > 100")
+            pairs = []
+            for _ in range(8):
+                pairs.append(shown.drawn("turntable"))
+                time.sleep(0.15)
+            last = max(pair["sequence"] for pair in pairs if pair)
+            records = seen(viewer, last + 1)
+        sent = {int(record["sequence"]): record for record in records}
+        assert len({pair["sequence"] for pair in pairs}) > 3
+        for pair in pairs:
+            record = sent[pair["sequence"]]
+            np.testing.assert_allclose(pair["quat"], record["quat"], atol=1e-6)
+            assert pair["valid"] is True
+            # and it is what the device did: to the left by TURN, so that the heading falls
+            w, _, _, z = pair["quat"]
+            error = 2 * math.atan2(z, w) - TURN * pair["sequence"] / RATE
+            assert abs((error + math.pi) % (2 * math.pi) - math.pi) < math.radians(6)
+        shown.must_be_clean()
+
+
+def test_silence_is_not_valid_and_says_why(browser: Any) -> None:
+    with serving() as live, page_of(browser, live) as shown:
+        with sending(live, "band"):
+            page = shown.open()
+            page.locator(".verdict", has_text="Valid").wait_for()
+        page.locator(".verdict", has_text="Not valid").wait_for()
+        assert "no sample has arrived in time" in page.inner_text(".why")
+        page.locator(".lane.invalid", has_text="silent").wait_for()
+        shown.waits_for("window.poise.drawn('band').valid === false")
+        shown.must_be_clean()
+
+
+def test_methods_and_parameters_change_on_the_page(browser: Any) -> None:
+    with serving(methods=("adaptive-gain", "two-stage")) as live, page_of(browser, live) as shown:
+        with sending(live, "band"):
+            page = shown.open()
+            page.get_by_label("Stop two-stage").click()
+            wait_for(lambda: [m["name"] for m in live.http.get("/devices").json()[0]["methods"]] == ["adaptive-gain"])
+            page.locator("#method-add").select_option("two-stage")
+            wait_for(lambda: len(live.http.get("/devices").json()[0]["methods"]) == 2)
+            shown.waits_for("window.poise.drawn('band', 1)?.sequence > 0")
+            page.locator("summary").nth(1).click()
+            field = page.locator(".method").nth(1).locator("input[type=number]").first
+            name = field.get_attribute("id").split("-", 2)[2]
+            field.fill("0.123")
+            page.locator(".method").nth(1).get_by_role("button", name="Apply").click()
+            wait_for(lambda: f'"{name}": 0.123' in live.http.get("/devices").json()[0]["methods"][1]["settings"])
+            page.get_by_text("(1 changed)").wait_for()
+        shown.must_be_clean()
+
+
+def test_what_a_method_does_not_take_is_said(browser: Any) -> None:
+    with serving(methods=("two-stage",)) as live, page_of(browser, live) as shown:
+        with sending(live, "band"):
+            page = shown.open()
+            page.locator("summary").first.click()
+            page.evaluate("document.querySelector('.parameters').noValidate = true")
+            page.locator(".method input[type=number]").first.fill("-1e9")
+            page.get_by_role("button", name="Apply").click()
+            page.locator(".panel .answer.bad").wait_for()
+            assert live.http.get("/devices").json()[0]["methods"][0]["settings"] == "{}"
+        shown.must_be_clean()
+
+
+def test_pause_scrub_and_download(browser: Any, tmp_path: Path) -> None:
+    with serving() as live, page_of(browser, live, accept_downloads=True) as shown:
+        with sending(live, "turntable") as source:
+            page = shown.open()
+            shown.waits_for("window.poise.drawn('turntable')?.sequence > 300")
+            page.get_by_role("button", name="Pause").click()
+            time.sleep(0.3)  # for the redraw
+            stopped = shown.drawn("turntable")
+            before = source.sent
+            wait_for(lambda: source.sent > before + 50)
+            assert shown.drawn("turntable") == stopped
+            page.locator("#scrub").focus()
+            for _ in range(20):
+                page.keyboard.press("ArrowLeft")
+            page.keyboard.press("PageDown")
+            shown.waits_for(f"window.poise.drawn('turntable').sequence < {stopped['sequence'] - 20}")
+            assert "s" in page.inner_text("#instant")
+            page.get_by_role("button", name="Back to now").click()
+            shown.waits_for(f"window.poise.drawn('turntable').sequence > {before + 50}")
+            page.locator("body").press("Space")
+            page.get_by_role("button", name="Back to now").click()
+            page.get_by_role("button", name="Download").click()
+            with page.expect_download() as download:
+                page.get_by_role("button", name="Save as CSV").click()
+            download.value.save_as(tmp_path / "held.csv")
+        with (tmp_path / "held.csv").open(newline="") as file:
+            rows = list(csv.DictReader(file))
+        assert len(rows) > 20
+        assert {row["device"] for row in rows} == {"turntable"}
+        for row in rows[::10]:
+            expected = turning(int(row["sequence"]), 1)[0]
+            found = [float(row[name]) for name in ("time", "gx", "gy", "gz", "ax", "ay", "az", "mx", "my", "mz")]
+            np.testing.assert_allclose(found, expected, rtol=1e-5, atol=1e-5)
+        shown.must_be_clean()
+
+
+def test_this_way_is_forward(browser: Any) -> None:
+    with serving() as live, page_of(browser, live) as shown:
+        with sending(live, "phone", samples=_still):
+            page = shown.open()
+            page.get_by_text("0° is magnetic north").wait_for()
+            shown.waits_for("parseFloat(document.querySelector('.figure').textContent) > 60")
+            page.get_by_role("button", name="This way is forward").click()
+            page.get_by_text("Heading set to 0°").wait_for()
+            shown.waits_for(
+                "Math.abs((parseFloat(document.querySelector('.figure').textContent) + 180) % 360 - 180) < 5"
+            )
+            page.get_by_text("0° is where it started").wait_for()
+        shown.must_be_clean()
+
+
+def _still(first: int, n: int) -> NDArray[np.float64]:
+    """A level device that points east."""
+    rows = turning(first, n, 0.0)
+    rows[:, 7], rows[:, 8] = -20.0, 0.0
+    return rows
+
+
+def test_tipping_over_is_loud(browser: Any) -> None:
+    watch = Watch()
+    watch.warm()
+    with serving(watch=watch) as live, page_of(browser, live) as shown:
+        with sending(live, "robot", samples=falling):
+            page = shown.open()
+            alarm = page.get_by_role("alert")
+            alarm.get_by_text("Fallen").wait_for()
+            assert "robot" in alarm.inner_text()
+            assert page.locator("#alarm").get_attribute("aria-live") == "assertive"
+            assert page.locator("#alarm").bounding_box()["height"] > 40
+            page.locator(".tip.bad").wait_for()
+            assert "tipping" in page.inner_text(".events").lower()
+        shown.must_be_clean()
+
+
+def test_a_server_that_comes_back_is_found_again(browser: Any) -> None:
+    with serving() as live:
+        port = int(live.address.rpartition(":")[2])
+        shown = Shown(browser, live)
+        with sending(live, "turntable"):
+            page = shown.open()
+            shown.waits_for("window.poise.drawn('turntable')?.sequence > 10")
+    page.get_by_text("Connection lost").first.wait_for()
+    page.locator(".verdict", has_text="Not valid").wait_for()
+    assert "connection lost" in page.inner_text(".why")
+    with serving(port=port) as live:
+        with sending(live, "other"), sending(live, "turntable"):
+            page.locator(".link[data-state=open]").wait_for()
+            shown.waits_for("window.poise.drawn('turntable')?.valid === true || location.hash === ''")
+            assert page.inner_text("#banner") == ""
+            page.locator(".tile", has_text="turntable").click()
+            shown.waits_for("window.poise.drawn('turntable')?.valid === true")
+        assert page.evaluate("window.violations") == []
+        shown.context.close()
+
+
+def test_a_token_is_asked_for_kept_in_no_address_and_may_be_for_looking_only(browser: Any) -> None:
+    every, reader = "e" * 20, "r" * 20
+    with serving(tokens={every: frozenset({"read", "write", "device"}), reader: frozenset({"read"})}) as live:
+        device_headers = {"additional_headers": {"Authorization": f"Bearer {every}"}}
+        with live.device("band", **device_headers) as device, page_of(browser, live) as shown:
+            device.send(frames.encoded(turning(0, 100), 0))
+            page = shown.open()
+            dialog = page.get_by_role("dialog", name="This server wants a token")
+            page.get_by_label("Token", exact=True).fill("wrong-wrong-wrong-wrong")
+            page.get_by_role("button", name="Connect").click()
+            dialog.get_by_text("not one of this server").wait_for()
+            page.get_by_label("Token", exact=True).fill(reader)
+            page.get_by_role("button", name="Connect").click()
+            page.locator(".link[data-state=open]").wait_for()
+            page.get_by_text("You may look, not change").wait_for()
+            assert page.locator("#method-0").is_disabled()
+            assert page.get_by_role("button", name="This way is forward").is_disabled()
+            assert reader not in page.url
+            assert page.evaluate("window.violations") == []
+        with page_of(browser, live) as shown:
+            page = shown.open(f"#token={every}")
+            page.locator(".link[data-state=open]").wait_for()
+            assert every not in page.url
+            assert page.locator("#method-0").is_enabled()
+            assert not any(every in url for url in shown.requests)
+            shown.must_be_clean()
+
+
+def test_many_devices_are_tiles_and_one_can_be_chosen_with_the_keyboard(browser: Any) -> None:
+    names = tuple(f"unit-{k:02}" for k in range(12))
+    with serving() as live, page_of(browser, live) as shown:
+        with sending(live, *names):
+            page = shown.open()
+            shown.waits_for("document.querySelectorAll('.tile').length === 12")
+            shown.waits_for("window.poise.drawn('unit-11')?.sequence > 20")
+            page.locator(".tile").nth(2).focus()
+            page.keyboard.press("Enter")
+            page.get_by_role("heading", name="unit-02").wait_for()
+            shown.waits_for("window.poise.drawn('unit-02')?.sequence > 20")
+            page.keyboard.press("Escape")
+            shown.waits_for("document.querySelectorAll('.tile').length === 12")
+        shown.must_be_clean()
+
+
+def test_a_phone_s_width_and_the_dark_lose_nothing(browser: Any) -> None:
+    with serving() as live, page_of(browser, live, color_scheme="dark", reduced_motion="reduce") as shown:
+        with sending(live, "band"):
+            page = shown.open()
+            page.set_viewport_size({"width": 390, "height": 844})
+            page.locator(".verdict", has_text="Valid").wait_for()
+            page.locator(".plot canvas").nth(5).wait_for()
+            shown.waits_for("document.documentElement.scrollWidth <= 390")
+            background = page.evaluate("getComputedStyle(document.body).backgroundColor")
+            assert sum(int(part) for part in background.strip("rgb()").split(",")) < 120
+            unnamed = page.evaluate(
+                "[...document.querySelectorAll('button, input, select, a')].filter((e) => e.offsetParent && !e.ariaLabel"
+                " && !e.textContent.trim() && !e.labels?.length).map((e) => e.outerHTML)"
+            )
+            assert unnamed == []
+        shown.must_be_clean()

@@ -1,0 +1,109 @@
+"""``poise view`` in a real browser: what is drawn is what was estimated."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import poise
+from browsing import chromium, page_of, until
+from data_files import data_path
+from live_helpers import METHOD, serving
+from poise.live.film import Film, Strip, of_recording
+from poise.simulation import Sensor, forearm, measure
+
+pytest.importorskip("starlette", reason="the extra `live` is not installed")
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    with chromium() as found:
+        yield found
+
+
+def film_of(recording: poise.Recording) -> tuple[Film, poise.Attitude]:
+    attitude = poise.estimate(poise.AdaptiveGain(), recording)
+    return of_recording(recording, [Strip(METHOD, attitude)]), attitude
+
+
+def drawn(page: Any, method: int, time: float) -> np.ndarray[Any, Any]:
+    """w x y z of the body on the page at *time* from the start."""
+    page.evaluate("time => poise.playhead.seek(time)", time)
+    until(page, "poise.store.version === poise.painted()")
+    [name] = page.evaluate("[...poise.store.devices.keys()]")
+    return np.array(page.evaluate("([name, method]) => poise.drawn(name, method).quat", [name, method]), float)
+
+
+def apart(p: Any, q: Any) -> float:
+    """deg"""
+    return float(np.degrees(2.0 * np.arccos(min(1.0, abs(float(np.dot(p, q)))))))
+
+
+def test_a_real_trial_is_drawn_as_it_was_estimated(browser: Any, tmp_path: Path) -> None:
+    recording = poise.read(data_path("broad", "05_undisturbed_slow_rotation_with_breaks_B.mat"))
+    assert recording.truth is not None
+    shown, attitude = film_of(recording)
+    with serving(films=[shown]) as running, page_of(browser, f"http://{running.address}/?view") as page:
+        until(page, "poise.store.devices.size === 1 && poise.store.edge() > 1")
+        for at in (20.0, 61.5, 110.25):
+            k = int(np.searchsorted(recording.time, recording.time[0] + at))
+            assert (
+                apart(drawn(page, 0, at), attitude.quat[k]) < 0.5
+            )  # 8000 records of 200 s: the row is 25 ms off at most
+            assert apart(drawn(page, 1, at), recording.truth.quat[k]) < 0.5
+        table = page.locator(".errors").inner_text()
+        assert f"{poise.evaluate(attitude, recording).rmse_deg().total:.2f}°" in table and "reference" in table
+        page.locator(".stretch").first.click()
+        first = min(each.start for method in (attitude, recording.truth) for each in method.reasons())
+        assert page.evaluate("poise.playhead.time") == pytest.approx(first - recording.time[0], abs=0.01)
+
+
+def test_it_plays_stops_and_is_scrubbed_by_keyboard(browser: Any) -> None:
+    shown, _ = film_of(measure(forearm(20.0, rate=50.0), Sensor(), seed=2))
+    with serving(films=[shown]) as running, page_of(browser, f"http://{running.address}/?view") as page:
+        until(page, "poise.store.edge() > 1")
+        page.select_option("#speed", "5")
+        page.click("#play")
+        until(page, "poise.playhead.time > 2")
+        page.click("#play")
+        at = page.evaluate("poise.playhead.time")
+        page.wait_for_timeout(200)
+        assert page.evaluate("poise.playhead.time") == at
+        page.evaluate("document.activeElement.blur()")
+        page.keyboard.press("ArrowRight")
+        assert page.evaluate("poise.playhead.time") == pytest.approx(at + 1.0)
+        page.keyboard.press("Space")
+        until(page, "poise.playhead.time > poise.playhead.end - 1e-9 && !poise.playhead.playing")
+        page.locator("#scrub").fill("3.5")
+        assert page.evaluate("poise.playhead.time") == pytest.approx(3.5)
+        assert "3.50 s of 20.0 s" in page.locator("#instant").inner_text()
+
+
+def test_a_long_film_is_fetched_finely_where_it_is_looked_at(browser: Any) -> None:
+    shown, attitude = film_of(measure(forearm(400.0, rate=100.0), Sensor(), seed=3))
+    with serving(films=[shown]) as running, page_of(browser, f"http://{running.address}/?view") as page:
+        until(page, "poise.store.edge() > 1")
+        page.locator("label[for=window-5]").click()
+        for at in (301.234, 12.345):  # it is looked at, fetched, and looked at again
+            page.evaluate("time => poise.playhead.seek(time)", at)
+            until(page, """at => { const { ring } = poise.store.mainTrack([...poise.store.devices.keys()][0]);
+                const k = ring.find(at); return k >= 0 && at - ring.at(k) < 0.0101; }""", at)  # fmt: skip
+            k = int(np.searchsorted(attitude.time, attitude.time[0] + at, side="right")) - 1
+            assert apart(drawn(page, 0, at), attitude.quat[k]) < 0.05  # single precision
+
+
+def test_two_films_have_tiles_at_phone_width(browser: Any) -> None:
+    films = [film_of(measure(forearm(seconds, rate=50.0), Sensor(), seed=4))[0] for seconds in (5.0, 9.0)]
+    with serving(films=films) as running:
+        size = {"viewport": {"width": 390, "height": 844}, "color_scheme": "dark"}
+        with page_of(browser, f"http://{running.address}/?view", **size) as page:
+            until(page, "document.querySelectorAll('.tile').length === 2")
+            assert page.evaluate("poise.playhead.end") == pytest.approx(8.98, abs=0.05)
+            until(page, "document.documentElement.scrollWidth <= innerWidth")
+            page.locator(".tile").last.click()
+            page.wait_for_selector(".detail")
+            until(page, "document.documentElement.scrollWidth <= innerWidth")

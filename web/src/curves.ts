@@ -1,0 +1,132 @@
+// What plots are drawn from: a window of the rings, as uPlot takes it.
+
+import type uPlot from "uplot";
+import { angles } from "./attitude";
+import type { Stretch } from "./chart";
+import { AT } from "./protocol";
+import type { Ring } from "./ring";
+import type { Store, Track } from "./store";
+
+type Column = (number | null)[];
+
+export interface Windowed {
+  heading: uPlot.AlignedData;
+  pitch: uPlot.AlignedData;
+  roll: uPlot.AlignedData;
+  gyr: uPlot.AlignedData;
+  acc: uPlot.AlignedData;
+  mag: uPlot.AlignedData;
+  /** s since 1970, of the main method's rows */
+  stretches: Stretch[];
+  lanes: Lane[];
+}
+
+/** Where one flag was set. */
+export interface Lane {
+  bit: number;
+  stretches: [number, number][];
+}
+
+/** s: with more between two rows, the line is broken */
+const GAP = 0.5;
+
+function bounds(ring: Ring, from: number, to: number): [number, number] {
+  return [Math.max(0, ring.find(from)), ring.find(to) + 1];
+}
+
+/** Angles of *tracks* and the samples of the first of them, between two instants. */
+export function windowed(store: Store, tracks: Track[], from: number, to: number): Windowed {
+  const spans = tracks.map(({ ring }) => bounds(ring, from, to));
+  const stamps = merged(tracks, spans);
+  const named = { heading: [stamps] as Column[], pitch: [stamps] as Column[], roll: [stamps] as Column[] };
+  tracks.forEach((track, t) => {
+    const columns = angleColumns(track.ring, spans[t], stamps as number[], tracks.length === 1);
+    named.heading.push(...columns.slice(0, 3));
+    named.pitch.push(...columns.slice(3, 6));
+    named.roll.push(...columns.slice(6, 9));
+  });
+  const main = tracks[0]?.ring;
+  const sensors = (field: number) => (main ? sensorColumns(main, spans[0], field) : [[], [], [], []]) as uPlot.AlignedData;
+  return {
+    ...(named as unknown as Pick<Windowed, "heading" | "pitch" | "roll">),
+    gyr: sensors(AT.gyr),
+    acc: sensors(AT.acc),
+    mag: sensors(AT.mag),
+    ...(main ? flagged(store, main, spans[0]) : { stretches: [], lanes: [] }),
+  };
+}
+
+/** All instants of several rings, each once: rows of one device's methods have the same stamps. */
+function merged(tracks: Track[], spans: [number, number][]): Column {
+  if (tracks.length === 1) return stampsOf(tracks[0].ring, spans[0]);
+  const all = new Set<number>();
+  tracks.forEach(({ ring }, t) => stampsOf(ring, spans[t]).forEach((stamp) => all.add(stamp)));
+  return [...all].sort((a, b) => a - b);
+}
+
+function stampsOf(ring: Ring, [first, end]: [number, number]): number[] {
+  const stamps = new Array<number>(end - first);
+  for (let k = first; k < end; k++) stamps[k - first] = ring.at(k);
+  return stamps;
+}
+
+function angleColumns(ring: Ring, [first, end]: [number, number], stamps: number[], alone: boolean): Column[] {
+  const columns: Column[] = Array.from({ length: 9 }, () => new Array<number | null>(stamps.length).fill(null));
+  let row = 0;
+  for (let k = first; k < end; k++) {
+    const at = ring.at(k);
+    if (alone) row = k - first;
+    else while (stamps[row] < at) row++;
+    const a = angles(ring, k);
+    if (k > first && at - ring.at(k - 1) > GAP) continue; // one row less, so that the line is broken
+    put(columns, 0, row, a.heading, a.sigmaHeading);
+    put(columns, 3, row, a.pitch, a.sigmaPitch);
+    put(columns, 6, row, a.roll, a.sigmaRoll);
+  }
+  return columns;
+}
+
+function put(columns: Column[], at: number, row: number, value: number, sigma: number): void {
+  if (!Number.isFinite(value)) return;
+  columns[at][row] = value;
+  if (!Number.isFinite(sigma)) return;
+  columns[at + 1][row] = value + sigma;
+  columns[at + 2][row] = value - sigma;
+}
+
+function sensorColumns(ring: Ring, [first, end]: [number, number], field: number): Column[] {
+  const columns: Column[] = [stampsOf(ring, [first, end]), ...[0, 1, 2].map(() => new Array<number | null>(end - first))];
+  for (let k = first; k < end; k++) {
+    for (let axis = 0; axis < 3; axis++) {
+      const value = ring.value(k, field + axis);
+      columns[1 + axis][k - first] = Number.isFinite(value) ? value : null;
+    }
+  }
+  return columns;
+}
+
+function flagged(store: Store, ring: Ring, [first, end]: [number, number]): { stretches: Stretch[]; lanes: Lane[] } {
+  const stretches: Stretch[] = [];
+  const lanes = new Map<number, [number, number][]>();
+  let since = NaN;
+  for (let k = first; k < end; k++) {
+    const at = ring.at(k);
+    const until = k + 1 < end ? ring.at(k + 1) : store.link.state === "open" && k + 1 === ring.length ? store.edge() : at;
+    if (!ring.valid(k)) {
+      if (Number.isNaN(since)) since = at;
+    } else if (!Number.isNaN(since)) {
+      stretches.push({ from: since, to: at, invalid: true });
+      since = NaN;
+    }
+    for (let flags = ring.allFlags(k), bit = 0; flags; flags >>>= 1, bit++) {
+      if (!(flags & 1)) continue;
+      const lane = lanes.get(bit) ?? [];
+      lanes.set(bit, lane);
+      const last = lane[lane.length - 1];
+      if (last && last[1] >= at) last[1] = until;
+      else lane.push([at, until]);
+    }
+  }
+  if (!Number.isNaN(since)) stretches.push({ from: since, to: store.edge(), invalid: true });
+  return { stretches, lanes: [...lanes].map(([bit, found]) => ({ bit, stretches: found })).sort((a, b) => a.bit - b.bit) };
+}

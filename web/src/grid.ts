@@ -1,0 +1,114 @@
+// All devices, a tile each.
+
+import { angles, fixed } from "./attitude";
+import { BodyView } from "./bodies";
+import { h, say } from "./dom";
+import type { Playhead } from "./playhead";
+import { ALARMING } from "./protocol";
+import type { DeviceInfo } from "./protocol";
+import type { Drawn } from "./scene";
+import type { Stage } from "./stage";
+import type { Store } from "./store";
+import { STATES, tipWord } from "./words";
+
+const TEXT_EVERY = 200; // ms
+
+interface Tile {
+  element: HTMLAnchorElement;
+  view: BodyView;
+  shape: string;
+  heading: HTMLElement;
+  tilt: HTMLElement;
+  state: HTMLElement;
+}
+
+export function route(id: string): string {
+  return `#/${encodeURIComponent(id)}`;
+}
+
+export class Grid {
+  readonly element = h("div", { class: "grid", role: "list", "aria-label": "Devices" });
+  private tiles = new Map<string, Tile>();
+  private written = 0;
+  private visible = new Set<Element>();
+  private watcher = new IntersectionObserver((entries) => {
+    for (const { target, isIntersecting } of entries) {
+      const tile = [...this.tiles.values()].find((each) => each.element === target);
+      if (isIntersecting) this.visible.add(target);
+      else this.visible.delete(target);
+      if (tile) this.stage[isIntersecting ? "add" : "remove"](tile.view);
+    }
+  }, { rootMargin: "80px" });
+
+  constructor(private store: Store, private playhead: Playhead, private stage: Stage) {
+    this.sync();
+  }
+
+  destroy(): void {
+    this.watcher.disconnect();
+    for (const { view } of this.tiles.values()) this.stage.remove(view);
+  }
+
+  /** Tiles for the devices that there are now. */
+  sync(): void {
+    const devices = [...this.store.devices.values()].sort((a, b) => a.id.localeCompare(b.id, "en", { numeric: true }));
+    this.element.classList.toggle("many", devices.length > 8);
+    for (const [id, tile] of this.tiles) {
+      if (this.store.devices.get(id)?.shape === tile.shape) continue;
+      this.watcher.unobserve(tile.element);
+      this.stage.remove(tile.view);
+      tile.element.parentElement?.remove();
+      this.tiles.delete(id);
+    }
+    devices.forEach((device, k) => {
+      if (!this.tiles.has(device.id)) this.tiles.set(device.id, this.tile(device));
+      const holder = this.tiles.get(device.id)!.element.parentElement!;
+      if (this.element.children[k] !== holder) this.element.insertBefore(holder, this.element.children[k] ?? null);
+    });
+  }
+
+  private tile(device: DeviceInfo): Tile {
+    const body = h("div", { class: "body" });
+    const [heading, tilt, state] = [h("b"), h("b"), h("span", { class: "chip" })];
+    const element = h(
+      "a",
+      { class: "tile", href: route(device.id) },
+      body,
+      h("div", { class: "name" }, device.id),
+      h("dl", {}, h("div", {}, h("dt", {}, "Heading"), h("dd", {}, heading, "°")), h("div", {}, h("dt", {}, "Tilt"), h("dd", {}, tilt, "°"))),
+      state,
+    );
+    h("div", { role: "listitem" }, element);
+    this.watcher.observe(element);
+    return { element, view: new BodyView(this.store, this.playhead, device.id, body, device.shape, false), shape: device.shape, heading, tilt, state };
+  }
+
+  drawn(id: string): Drawn | null {
+    return this.tiles.get(id)?.view.scene.drawn() ?? null;
+  }
+
+  update(now: number): void {
+    if (now - this.written < TEXT_EVERY) return;
+    this.written = now;
+    for (const [id, tile] of this.tiles) if (this.visible.has(tile.element)) this.write(id, tile);
+  }
+
+  private write(id: string, tile: Tile): void {
+    const track = this.store.mainTrack(id);
+    const following = this.playhead.following;
+    const k = track ? (following ? track.ring.length - 1 : track.ring.find(this.playhead.time)) : -1;
+    const invalid = track ? (following ? this.store.whyInvalid(track, k) : k < 0 || !track.ring.valid(k) ? "not valid" : "") : "no method";
+    const tip = this.store.tipOf(id);
+    const a = track && k >= 0 ? angles(track.ring, k) : null;
+    say(tile.heading, fixed(a?.heading ?? NaN, 0));
+    say(tile.tilt, fixed(a?.tilt ?? NaN, 0));
+    const alarming = tip !== null && ALARMING.has(tip);
+    const condition = this.store.conditions.get(id)?.state ?? "waiting";
+    const word = alarming ? tipWord(tip) : invalid ? (condition === "live" ? "not valid" : (STATES[condition] ?? condition)) : tip !== null ? tipWord(tip) : "valid";
+    say(tile.state, word);
+    tile.element.classList.toggle("alarming", alarming);
+    tile.element.classList.toggle("invalid", !alarming && invalid !== "");
+    tile.element.title = invalid;
+    tile.element.setAttribute("aria-label", `${id}: ${word}${a ? `, heading ${fixed(a.heading, 0)} degrees, tilt ${fixed(a.tilt, 0)} degrees` : ""}`);
+  }
+}

@@ -1,0 +1,87 @@
+// The numbers of one device at the instant shown: heading, tilt, whether they may be acted on, and why not.
+
+import { angles, fixed } from "./attitude";
+import { h, say } from "./dom";
+import type { Playhead } from "./playhead";
+import { ALARMING } from "./protocol";
+import type { Store, Track } from "./store";
+import { tipWord, ZERO } from "./words";
+
+class Number_ {
+  value = h("span", { class: "figure" }, "–");
+  sigma = h("span", { class: "sigma" });
+  note = h("p", { class: "note" });
+  element: HTMLElement;
+
+  constructor(name: string) {
+    this.element = h("div", { class: "readout" }, h("h2", {}, name), h("p", {}, this.value, h("span", { class: "degree" }, "°"), this.sigma), this.note);
+  }
+
+  set(value: number, sigma: number, note: string): void {
+    say(this.value, fixed(value, 1));
+    say(this.sigma, Number.isFinite(sigma) ? `± ${fixed(sigma, 1)}°` : "");
+    say(this.note, note);
+  }
+}
+
+export class Readout {
+  readonly element: HTMLElement;
+  private heading = new Number_("Heading");
+  private tilt = new Number_("Tilt");
+  private verdict = h("p", { class: "verdict" });
+  private why = h("p", { class: "why" });
+  private tip = h("p", { class: "tip" });
+  private others = h("div", { class: "others" });
+  private spoken = h("p", { class: "unseen", role: "status", "aria-live": "polite" });
+  private written = 0;
+
+  constructor(private store: Store, private playhead: Playhead, private id: string) {
+    this.element = h("div", { class: "readouts" }, h("div", { class: "pair" }, this.heading.element, this.tilt.element), h("div", { class: "state" }, this.verdict, this.tip, this.why), this.others, this.spoken);
+  }
+
+  private row(track: Track): number {
+    return this.playhead.following ? track.ring.length - 1 : track.ring.find(this.playhead.time);
+  }
+
+  update(now: number): { invalid: string; tip: number | null } | null {
+    if (now - this.written < 100) return null;
+    this.written = now;
+    const tracks = this.store.tracksOf(this.id).filter((track) => track.running);
+    const [main] = tracks;
+    const k = main ? this.row(main) : -1;
+    const invalid = !main ? "its method is being loaded" : this.playhead.following ? this.store.whyInvalid(main, k) : this.whyThen(main, k);
+    const a = main && k >= 0 ? angles(main.ring, k) : null;
+    this.heading.set(a?.heading ?? NaN, a?.sigmaHeading ?? NaN, main ? ZERO[main.method.heading] : "");
+    this.tilt.set(a?.tilt ?? NaN, a?.sigmaTilt ?? NaN, "between its z axis and up");
+    say(this.verdict, invalid ? "Not valid" : "Valid");
+    say(this.why, invalid);
+    say(this.spoken, invalid ? `${this.id}: attitude not valid: ${invalid}` : `${this.id}: attitude valid`);
+    const tip = main && k >= 0 ? main.ring.tip(k) : 255;
+    const watched = tip !== 255;
+    say(this.tip, watched ? tipWord(tip) : "");
+    this.tip.classList.toggle("bad", ALARMING.has(tip));
+    this.element.classList.toggle("invalid", invalid !== "");
+    this.compare(tracks.slice(1), a?.heading ?? NaN);
+    return { invalid, tip: watched ? tip : null };
+  }
+
+  private whyThen(main: Track, k: number): string {
+    if (k < 0) return "nothing is held of this instant";
+    if (main.ring.valid(k)) return "";
+    return this.store.sentences(main.ring.flags(k)).filter((each) => each.invalid).map((each) => each.sentence).join("; ") || "not to be acted on";
+  }
+
+  /** Other methods beside the first: their figures, small, in their colours. */
+  private compare(tracks: Track[], _main: number): void {
+    while (this.others.childElementCount > tracks.length) this.others.lastElementChild!.remove();
+    while (this.others.childElementCount < tracks.length) this.others.append(h("p", {}, h("i", { class: "key" }), h("span"), h("b")));
+    tracks.forEach((track, n) => {
+      const [key, name, value] = this.others.children[n].children as unknown as [HTMLElement, HTMLElement, HTMLElement];
+      const k = this.row(track);
+      const a = k >= 0 ? angles(track.ring, k) : null;
+      key.style.setProperty("--key", `var(--m${track.colour})`);
+      say(name, track.method.name);
+      say(value, a ? `${fixed(a.heading, 1)}°  ·  ${fixed(a.tilt, 1)}°${track.ring.valid(k) ? "" : "  not valid"}` : "–");
+    });
+  }
+}
