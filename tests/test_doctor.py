@@ -58,6 +58,20 @@ def test_real_recordings_are_clean_and_their_unit_mistakes_named(name: str) -> N
         np.testing.assert_allclose(found.repair(wrong).time, recording.time, rtol=1e-12, atol=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("name", "start", "seconds"),
+    [
+        ("25_disturbed_tapping_B", 48.0, 54.0),
+        ("25_disturbed_tapping_B", 61.0, 45.0),
+    ],
+)
+def test_a_piece_that_never_rests_is_clean(name: str, start: float, seconds: float) -> None:
+    """Its slowest blocks are no rest, and their middle no bias: taken for one, rates in rad/s seemed to be in deg/s."""
+    recording = poise.read(data_path("broad", f"{name}.mat"))
+    first = recording.time[0] + start
+    assert not names(diagnose(recording.between(first, first + seconds)), "sure")
+
+
 @pytest.mark.parametrize("trial", TRIALS)
 def test_renamed_axes_of_one_sensor_are_put_right(trial: str) -> None:
     recording = poise.read(data_path("broad", f"{trial}.mat"))

@@ -23,6 +23,7 @@ _LONGEST = 2.0  # of the usual length: a shock is no vote
 _SPARSEST = 4  # blocks for each row
 _WILDEST = 1e4  # rad in a block: in no unit does anything turn like that
 _SLOW = 0.05  # of the blocks
+_ALIKE = 0.5  # of their middle: rates at rest lie nearer together
 _LARGEST_BIAS = 0.1  # rad/s: more is a turn
 FLOOR = 3e-4  # of the squared length, 1°: nearer than that no sensor's axes are
 
@@ -241,10 +242,13 @@ def mean_cosines(acc: Floats, mag: Floats) -> Floats:
 
 
 def bias(found: Blocks) -> Floats:
-    """(3,) the rate of the slowest blocks: the gyroscope's bias, where the sensor ever rests, in its own unit."""
+    """(3,) the rate of the slowest blocks, in its own unit: the gyroscope's bias; 0 where the sensor never rests."""
     speed = np.sqrt(np.einsum("ij,ij->i", found.gyr, found.gyr))
     known = np.isfinite(speed)
     if not known.any():
         return np.zeros(3)
     slow = found.gyr[known & (speed <= np.quantile(speed[known], _SLOW))]
-    return np.asarray(np.median(slow, axis=0))
+    middle = np.median(slow, axis=0)
+    spread = float(np.median(np.linalg.norm(slow - middle, axis=1)))
+    # where nothing rests, the slowest blocks turn this way and that, and their middle is no bias
+    return np.asarray(middle if spread < _ALIKE * float(np.linalg.norm(middle)) else np.zeros(3))
