@@ -499,7 +499,7 @@ def test_a_way_rolled_while_nothing_was_known_is_no_speed() -> None:
     for i in range(3):
         balancer.update(standing(i), (0.0, 0.0))
     balancer.update(standing(3, quat=[np.nan] * 4), (5.0, 5.0))
-    assert balancer.update(standing(4), (10.0, 10.0)) == (0.0, 0.0)
+    assert balancer.update(standing(4), (5.0, 5.0)) == (0.0, 0.0)
     assert balancer.state is not None and balancer.state.speed == 0.0
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
@@ -189,8 +190,8 @@ def test_a_reader_may_not_add_one() -> None:
             assert "write" in ask(viewer, type="joint", name="elbow", segment="a", base="b")["message"]
 
 
+@pytest.mark.skipif(find_spec("mujoco") is None, reason="needs poise[sim]")
 def test_the_elbow_of_the_simulated_arm_is_the_truths() -> None:
-    pytest.importorskip("mujoco")
     from poise.live.simulated import Simulated
     from poise.simulation import worlds
 

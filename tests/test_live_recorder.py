@@ -24,6 +24,7 @@ import poise
 from live_helpers import METHOD, ask, heard, made, rows_of, send, serving, wait_for
 from poise.cli import run
 from poise.live import frames, journal
+from poise.live.methods import Choice
 from poise.live.recorder import Recorder
 from poise.live.session import Session, SessionError, interrupted
 
@@ -208,6 +209,7 @@ class Started:
     """`poise live` as a process of its own."""
 
     def __init__(self, folder: Path) -> None:
+        Choice.of(METHOD).warm()  # compiling it may take longer than a test waits
         command = [sys.executable, "-m", "poise", "live", "--port", "0", "--record", str(folder), "-m", METHOD]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
         assert self.process.stdout is not None

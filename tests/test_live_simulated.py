@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import sys
 import time
+from importlib.util import find_spec
 from math import inf
 
 import numpy as np
@@ -16,7 +17,8 @@ from poise.cli import run
 from poise.live.devices import DeviceError
 from poise.live.simulated import Simulated
 
-pytest.importorskip("mujoco")
+# not importorskip: importing MuJoCo here would be too early for the choice of a renderer
+pytestmark = pytest.mark.skipif(find_spec("mujoco") is None, reason="needs poise[sim]")
 
 Floats = NDArray[np.float64]
 
