@@ -13,6 +13,7 @@ _LEAST = 0.06  # of the field, across gravity: of 50 µT the 3 µT below which a
 _NEAR = 0.3  # the same by one accelerometer sample, which motion tilts: further away, no need to look closer
 _CLEAR = 0.37  # sine of 22°: further than what moves a resting accelerometer can tilt it
 _WHILE, _LONGEST, _KNOWN = 1.0, 2.0, 3.0  # s
+_EVERY = 0.1  # s between two looks: one a sample costs more than all of the guard's other checks
 
 
 class Field(NamedTuple):
@@ -20,6 +21,7 @@ class Field(NamedTuple):
 
     along: float  # s, less what it pointed elsewhere since
     across: float  # s, up to what makes a heading known
+    since: float  # s since it was looked at
 
 
 @compiled
@@ -27,23 +29,35 @@ def begun(first: Sample, gravity: float) -> Field:
     """What a first sample says."""
     if _across(first.acc, first.mag, _LEAST):
         clear = at_rest(first, gravity) and _across(first.acc, first.mag, _CLEAR)
-        return Field(0.0, _KNOWN if clear else 0.0)
-    return Field(_LONGEST if present(first.acc) and _points(first.mag) else 0.0, 0.0)
+        return Field(0.0, _KNOWN if clear else 0.0, 0.0)
+    return Field(_LONGEST if present(first.acc) and _points(first.mag) else 0.0, 0.0, 0.0)
+
+
+@compiled
+def later(field: Field, dt: float) -> Field:
+    """*field* after *dt* s in which nobody looked."""
+    return Field(field.along, field.across, field.since + dt)
+
+
+@compiled
+def due(field: Field, mag: Vec3) -> bool:
+    """Whether it is time to look, and there is a field to look at."""
+    return field.since >= _EVERY and _points(mag)
 
 
 @compiled
 def plainly_across(field: Field, acc: Vec3, mag: Vec3) -> bool:
-    """Whether a sample says nothing new: it has no field, or one that is, as ever, far from the specific force."""
-    settled = field.along == 0.0 and field.across >= _KNOWN
-    return not _points(mag) or (settled and _across(acc, mag, _NEAR))
+    """Whether a sample says nothing new: as ever, its field is far from the specific force."""
+    return field.along == 0.0 and field.across >= _KNOWN and _across(acc, mag, _NEAR)
 
 
 @compiled
-def looked_at(field: Field, up: Vec3, mag: Vec3, time: float) -> Field:
-    """*field* after a sample that stands for *time* s; *up* is the method's, which motion does not tilt."""
+def looked_at(field: Field, up: Vec3, mag: Vec3, longest: float) -> Field:
+    """*field* after a look; *up* is the method's, which motion does not tilt. It stands for *longest* s at most."""
+    time = min(field.since, longest)
     if _across(up, mag, _LEAST):
-        return Field(max(field.along - time, 0.0), min(field.across + time, _KNOWN))
-    return Field(min(field.along + time, _LONGEST), field.across)
+        return Field(max(field.along - time, 0.0), min(field.across + time, _KNOWN), 0.0)
+    return Field(min(field.along + time, _LONGEST), field.across, 0.0)
 
 
 @compiled

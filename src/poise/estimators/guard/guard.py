@@ -7,7 +7,7 @@ from typing import Annotated, Any, NamedTuple
 
 from poise.data.flags import HEADING_ARBITRARY, INITIALISING, LOST, RESET, UNSETTLED
 from poise.data.packet import Output, Sample
-from poise.estimators.guard.field import Field, begun, looked_at, plainly_across, unknown, vertical
+from poise.estimators.guard.field import Field, begun, due, later, looked_at, plainly_across, unknown, vertical
 from poise.estimators.guard.levelling import (
     NOT_YET,
     REST_RATE,
@@ -127,14 +127,13 @@ class Guard(NamedTuple):
         if (ordinary or look.usable) and within(clean.gyr, REST_RATE) and at_rest(clean, self.gravity):
             astray = _astray(self, astray, clean, output(self.method, inner, clean).attitude)
         lost = astray > self.astray_time
-        points = state.field
+        points = later(state.field, clean.dt)
         seen = sample.mag if vertical(points) else clean.mag  # one that is faulty points nowhere
-        if not plainly_across(points, sample.acc, seen):
-            up, time = (
-                up_in_body(output(self.method, inner, clean).attitude),
-                min(max(state.mag.every, clean.dt), self.gap),
-            )
-            points = looked_at(points, up, seen, time)
+        if due(points, seen):
+            if plainly_across(points, sample.acc, seen):
+                points = Field(points.along, points.across, 0.0)
+            else:
+                points = looked_at(points, up_in_body(output(self.method, inner, clean).attitude), seen, self.gap)
         aligned = state.aligned and not (vertical(points) and unknown(points))
         flags = (LOST if lost else 0) | (0 if aligned and not unknown(points) else HEADING_ARBITRARY)
         if ordinary:
