@@ -209,7 +209,7 @@ class Started:
     """`poise live` as a process of its own."""
 
     def __init__(self, folder: Path) -> None:
-        Choice.of(METHOD).warm()  # compiling it may take longer than a test waits
+        Choice.of(METHOD).warm()  # less to compile while a test waits
         command = [sys.executable, "-m", "poise", "live", "--port", "0", "--record", str(folder), "-m", METHOD]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
         assert self.process.stdout is not None
@@ -234,7 +234,7 @@ def test_kill_9_loses_nothing_that_was_acknowledged(tmp_path: Path) -> None:
             for k in range(first, end, 10):
                 device.send(frames.encoded(rows[k : min(k + 10, end)], k))
             while known < end - int(random.integers(0, 100)) * (turn < 2):
-                known = max(known, heard(device, "ack")["next"])
+                known = max(known, heard(device, "ack", 120.0)["next"])  # it may have to compile first
             assert started.end(signal.SIGTERM if turn == 2 else signal.SIGKILL) == (0 if turn == 2 else -9)
     assert known == len(rows)
     (session,) = tmp_path.iterdir()
