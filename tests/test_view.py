@@ -51,6 +51,13 @@ def test_a_frame_has_every_row_where_there_is_room() -> None:
     assert described["methods"][0]["error_deg"] == pytest.approx(wanted._asdict())
 
 
+def test_a_method_without_a_heading_has_the_error_of_its_inclination_only() -> None:
+    recording = made(2.0)
+    shown = of_recording(recording, [Strip("tilt", poise.estimate(poise.Tilt(), recording))])
+    errors = shown.described(0)["methods"][0]["error_deg"]
+    assert errors["total"] is None and errors["heading"] is None and errors["inclination"] > 0.0
+
+
 def test_fewer_records_lose_no_flag() -> None:
     _, recording, attitude = film()
     flags = attitude.flags.copy()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import isfinite
+from math import isfinite, nan
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -150,13 +150,16 @@ class Film:
 
 def of_recording(recording: Recording, attitudes: Sequence[Strip]) -> Film:
     """The film of *attitudes*, made of *recording*, beside its reference, if it has one, and with their errors."""
+    from poise.estimators import judged_by
     from poise.evaluation import evaluate
 
     strips = list(attitudes)
     if (truth := recording.truth) is not None:
-        strips = [
-            strip._replace(error_deg=evaluate(strip.attitude, recording).rmse_deg()._asdict()) for strip in strips
-        ]
+        for k, strip in enumerate(strips):
+            errors = evaluate(strip.attitude, recording).rmse_deg()._asdict()
+            if judged_by(strip.attitude.provenance.method) == "inclination":  # it answers for no heading
+                errors |= {"total": nan, "heading": nan}
+            strips[k] = strip._replace(error_deg=errors)
         strips.append(Strip(REFERENCE, _in_enu(truth)))
     return Film(recording.name or "recording", strips, recording, recording.source)
 

@@ -213,7 +213,7 @@ def application(server: Server) -> App:
         ],
         exception_handlers={PoiseError: refused, ValueError: refused, RecursionError: refused, OSError: refused},
     )
-    server.offers = sorted({"/phone", "/recordings"} & {getattr(route, "path", "") for route in app.routes})
+    server.offers = ["/phone", *(["/recordings"] if server.recorder is not None else [])]
     return app  # type: ignore[no-any-return]
 
 
