@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import hashlib
 import math
+import re
 import threading
 import time
 from collections.abc import Iterator
@@ -200,7 +201,7 @@ def test_silence_is_not_valid_and_says_why(browser: Any) -> None:
     with serving() as live, page_of(browser, live) as shown:
         with sending(live, "band"):
             page = shown.open()
-            page.locator(".verdict", has_text="Valid").wait_for()
+            page.locator(".verdict", has_text=re.compile("^Valid$")).wait_for()
         page.locator(".verdict", has_text="Not valid").wait_for()
         assert "no sample has arrived in time" in page.inner_text(".why")
         page.locator(".lane.invalid", has_text="silent").wait_for()
@@ -384,7 +385,7 @@ def test_a_phone_s_width_and_the_dark_lose_nothing(browser: Any) -> None:
         with sending(live, "band"):
             page = shown.open()
             page.set_viewport_size({"width": 390, "height": 844})
-            page.locator(".verdict", has_text="Valid").wait_for()
+            page.locator(".verdict", has_text=re.compile("^Valid$")).wait_for()
             page.locator(".plot canvas").nth(5).wait_for()
             shown.waits_for("document.documentElement.scrollWidth <= 390")
             background = page.evaluate("getComputedStyle(document.body).backgroundColor")
