@@ -13,7 +13,7 @@ import poise
 from browsing import chromium, page_of, until
 from data_files import data_path
 from live_helpers import METHOD, serving
-from poise.live.film import Film, Strip, of_recording
+from poise.live.film import Film, Strip, of_attitude, of_recording
 from poise.simulation import Sensor, forearm, measure
 
 pytest.importorskip("starlette", reason="the extra `live` is not installed")
@@ -107,3 +107,19 @@ def test_two_films_have_tiles_at_phone_width(browser: Any) -> None:
             page.locator(".tile").last.click()
             page.wait_for_selector(".detail")
             until(page, "document.documentElement.scrollWidth <= innerWidth")
+
+
+@pytest.mark.parametrize("address", ["", "?", "?x=1&view", "#/nobody", "#/%"])
+def test_any_address_of_its_server_shows_the_recording(browser: Any, address: str) -> None:
+    shown, _ = film_of(measure(forearm(5.0, rate=50.0), Sensor(), seed=5))
+    with serving(films=[shown]) as running, page_of(browser, f"http://{running.address}/{address}") as page:
+        page.locator(".errors").wait_for()
+        until(page, "poise.store.edge() > 1")
+
+
+def test_how_one_body_stood_seen_from_another_has_no_heading(browser: Any) -> None:
+    _, attitude = film_of(measure(forearm(5.0, rate=50.0), Sensor(), seed=6))
+    shown = of_attitude("elbow", attitude.relative_to(attitude[::2].resample(attitude.time)))
+    with serving(films=[shown]) as running, page_of(browser, f"http://{running.address}/?view") as page:
+        page.get_by_text("seen from another body").wait_for()
+        assert page.locator(".chart h3").all_inner_texts() == ["Angle", "Turn", "Pitch", "Roll", "Rate"]

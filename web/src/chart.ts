@@ -26,8 +26,8 @@ export interface ChartSpec {
   lines: Line[];
   /** a band around each line: two more series a line, upper and lower */
   bands: boolean;
-  /** a compass: from 0 to 360 once most of it is used, and broken where it passes north */
-  compass?: boolean;
+  /** an angle that goes on at its other end: all of it once most of it is used, and broken where it passes the end */
+  turn?: [number, number];
   /** the last of its group, which has the times */
   foot?: boolean;
 }
@@ -110,7 +110,7 @@ export class Chart {
   private options(width: number, height: number): uPlot.Options {
     const { spec } = this;
     const [ink, line] = [css("--muted"), css("--line")];
-    const gaps = spec.compass ? { gaps: wraps } : {};
+    const gaps = spec.turn ? { gaps: wraps } : {};
     const series: uPlot.Series[] = [{}];
     const bands: uPlot.Band[] = [];
     for (const each of spec.lines) {
@@ -198,7 +198,7 @@ function clock(plot: uPlot, splits: number[]): string[] {
   return splits.map((s) => (s > max! - room ? "" : CLOCK.format(1000 * s)));
 }
 
-/** Gaps where a heading passes north: a null between two points of one pixel would not be seen. */
+/** Gaps where an angle passes its end: a null between two points of one pixel would not be seen. */
 function wraps(plot: uPlot, index: number, first: number, last: number, found: uPlot.Series.Gaps): uPlot.Series.Gaps {
   const stamps = plot.data[0];
   const values = plot.data[index];
@@ -216,9 +216,9 @@ function wraps(plot: uPlot, index: number, first: number, last: number, found: u
   return found.sort((a, b) => a[0] - b[0]);
 }
 
-function span(low: number | null, high: number | null, { least, compass }: ChartSpec): [number, number] {
+function span(low: number | null, high: number | null, { least, turn }: ChartSpec): [number, number] {
   if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) return [-least / 2, least / 2];
-  if (compass && high - low > 200) return [0, 360];
+  if (turn && high - low > 200) return turn;
   const middle = (low + high) / 2;
   const half = Math.max(least, 1.12 * (high - low)) / 2;
   return [middle - half, middle + half];
