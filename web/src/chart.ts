@@ -198,21 +198,29 @@ function clock(plot: uPlot, splits: number[]): string[] {
   return splits.map((s) => (s > max! - room ? "" : CLOCK.format(1000 * s)));
 }
 
+const NEAR = 10; // px between two passes, below which both are drawn: gaps would leave nothing
+
 /** Gaps where an angle passes its end: a null between two points of one pixel would not be seen. */
 function wraps(plot: uPlot, index: number, first: number, last: number, found: uPlot.Series.Gaps): uPlot.Series.Gaps {
   const stamps = plot.data[0];
   const values = plot.data[index];
+  const passes: [number, number][] = [];
   let before: number | null | undefined = null;
   let left = 0;
-  const halo = Math.ceil(1.5 * devicePixelRatio); // the width of the line
   for (let k = first; k <= last; k++) {
     const value = values[k];
     if (value === null || value === undefined) continue;
     const at = Math.round(plot.valToPos(stamps[k], "x", true));
-    if (before !== null && before !== undefined && Math.abs(value - before) > 180) found.push([left - halo, at + halo]);
+    if (before !== null && before !== undefined && Math.abs(value - before) > 180) passes.push([left, at]);
     before = value;
     left = at;
   }
+  const halo = Math.ceil(1.5 * devicePixelRatio); // the width of the line
+  const near = NEAR * devicePixelRatio;
+  passes.forEach(([from, to], n) => {
+    const alone = (n === 0 || from - passes[n - 1][1] > near) && (n + 1 === passes.length || passes[n + 1][0] - to > near);
+    if (alone) found.push([from - halo, to + halo]);
+  });
   return found.sort((a, b) => a[0] - b[0]);
 }
 

@@ -34,7 +34,7 @@ export class Detail {
   constructor(private store: Store, playhead: Playhead, private stage: Stage, private source: Source, readonly device: DeviceInfo) {
     const joint = device.shape === "joint";
     this.readout = new Readout(store, playhead, device);
-    this.plots = new Plots(store, playhead, device.id, device.shape);
+    this.plots = new Plots(store, playhead, device);
     this.methods = joint ? null : new Methods(store, source, device.id);
     this.link = new Link(store, device);
     this.events = new Events(store, device.id);

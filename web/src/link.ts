@@ -41,7 +41,7 @@ export class Link {
     this.set("Repeated", count(health.repeated));
     this.set("Refused", count(health.rejected), health.rejected > 0);
     this.set("Silences", count(health.silences));
-    this.set("Delay to here", delay === undefined ? "–" : `${fixed(1000 * delay, 0)} ms`);
+    this.set("Delay to here", delay === undefined ? "–" : `${fixed(Math.max(0, 1000 * delay), 0)} ms`);
     this.set("In the server, p99", typeof p99 === "number" ? `${fixed(p99, 1)} ms` : "–");
     this.set("Clock drift", `${fixed(health.clock_drift_ppm, 1)} ppm`);
   }

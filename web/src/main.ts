@@ -138,7 +138,7 @@ function empty(): HTMLElement {
     h("p", {}, "A device appears here with its first sample. It pushes to"),
     h("p", {}, h("code", {}, address)),
     h("p", {}, "or is named when the server is started:"),
-    h("p", {}, h("code", {}, "poise live serial:/dev/ttyUSB0"), h("code", {}, "poise live udp::9000"), h("code", {}, "poise live replay:walk.csv")),
+    h("p", {}, h("code", {}, "poise live serial:/dev/ttyUSB0"), h("code", {}, "poise live udp::9000"), h("code", {}, "poise live replay:walk.csv"), h("code", {}, "poise live sim:balance")),
   );
 }
 

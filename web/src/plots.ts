@@ -8,7 +8,7 @@ import type { Lane, Quantity } from "./curves";
 import { h, say } from "./dom";
 import type { Playhead } from "./playhead";
 import { AT } from "./protocol";
-import type { Shape } from "./protocol";
+import type { DeviceInfo } from "./protocol";
 import type { Store } from "./store";
 
 const XYZ: Line[] = [
@@ -51,8 +51,9 @@ export class Plots {
   private scheme = matchMedia("(prefers-color-scheme: dark)");
   private recolour = () => this.each((chart) => chart.recolour());
 
-  constructor(private store: Store, private playhead: Playhead, private id: string, shape: Shape) {
-    this.kinds = shape === "joint" ? JOINT : EARTH;
+  constructor(private store: Store, private playhead: Playhead, private device: DeviceInfo) {
+    const { angles, sensors } = device.shape === "joint" ? JOINT : EARTH;
+    this.kinds = { angles, sensors: device.sensors === false ? JOINT.sensors : sensors };
     this.observer.observe(this.element);
     this.scheme.addEventListener("change", this.recolour);
     this.lanes.style.setProperty("--axis", `${CHART_AXIS}px`);
@@ -75,7 +76,7 @@ export class Plots {
     if (now - this.drawn < pause || (this.version === this.store.version && !this.playhead.following)) return;
     this.drawn = now;
     this.version = this.store.version;
-    const tracks = this.store.tracksOf(this.id).filter((track) => track.ring.length);
+    const tracks = this.store.tracksOf(this.device.id).filter((track) => track.ring.length);
     this.build(tracks.map(({ method, colour, running }) => ({ label: method.name + (running ? "" : " (before)"), colour: `--m${colour}`, dashed: !running })));
     const mark = this.store.instant && this.playhead.time;
     const quantities = Object.keys(this.kinds.angles) as Quantity[];
@@ -89,7 +90,7 @@ export class Plots {
     if (key === this.shown) return;
     this.shown = key;
     this.each((chart) => chart.destroy());
-    const sync = uPlot.sync(`device ${this.id}`);
+    const sync = uPlot.sync(`device ${this.device.id}`);
     const angles = Object.entries(this.kinds.angles).map(([name, spec]) => [name as Quantity, new Chart({ ...spec, lines, bands: true }, sync)] as const);
     const sensors = this.kinds.sensors.map(([field, spec]) => [field, new Chart({ ...spec, lines: XYZ, bands: false }, sync)] as const);
     this.charts = new Map<Quantity | number, Chart>([...angles, ...sensors]);

@@ -56,6 +56,8 @@ export interface DeviceInfo {
   /** of a joint: the device that is seen from the device `base` */
   segment?: string;
   base?: string;
+  /** of a recording: whether its samples are there, and not its attitude alone */
+  sensors?: boolean;
 }
 
 export interface DeviceHealth {

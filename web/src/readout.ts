@@ -30,7 +30,8 @@ export class Readout {
   readonly element: HTMLElement;
   private first: Number_;
   private second: Number_;
-  private joint: boolean;
+  /** of a joint: about the base's z, x and y */
+  private about: HTMLElement[] | null;
   private verdict = h("p", { class: "verdict" });
   private why = h("p", { class: "why" });
   private tip = h("p", { class: "tip" });
@@ -39,9 +40,11 @@ export class Readout {
   private written = 0;
 
   constructor(private store: Store, private playhead: Playhead, private device: DeviceInfo) {
-    this.joint = device.shape === "joint";
-    [this.first, this.second] = (this.joint ? ["Angle", "Turn"] : ["Heading", "Tilt"]).map((name) => new Number_(name));
-    this.element = h("div", { class: "readouts" }, h("div", { class: "pair" }, this.first.element, this.second.element), h("div", { class: "state" }, this.verdict, this.tip, this.why), this.others, this.spoken);
+    const joint = device.shape === "joint";
+    [this.first, this.second] = [new Number_(joint ? "Angle" : "Heading"), new Number_("Tilt")];
+    this.about = joint ? ["Turn", "Pitch", "Roll"].map(() => h("dd")) : null;
+    const beside = this.about ? h("dl", { class: "facts" }, ...["Turn", "Pitch", "Roll"].map((name, k) => h("div", {}, h("dt", {}, name), this.about![k]))) : this.second.element;
+    this.element = h("div", { class: "readouts" }, h("div", { class: "pair" }, this.first.element, beside), h("div", { class: "state" }, this.verdict, this.tip, this.why), this.others, this.spoken);
   }
 
   private row(track: Track): number {
@@ -70,10 +73,11 @@ export class Readout {
   }
 
   private figures(a: Angles | null, main: Track | undefined): void {
-    if (this.joint) {
+    if (this.about) {
       const { segment, base } = this.device;
       this.first.set(a?.angle ?? NaN, a?.sigmaAngle ?? NaN, segment && base ? `of ${segment}, seen from ${base}` : "seen from another body");
-      this.second.set(a?.turn ?? NaN, a?.sigmaHeading ?? NaN, a ? `about the base’s z; pitch ${fixed(a.pitch, 1)}°, roll ${fixed(a.roll, 1)}°` : "about the base’s z");
+      const values = a ? [a.turn, a.pitch, a.roll] : [NaN, NaN, NaN];
+      this.about.forEach((value, k) => say(value, `${fixed(values[k], 1)}°`));
       return;
     }
     this.first.set(a?.heading ?? NaN, a?.sigmaHeading ?? NaN, main ? ZERO[main.method.heading] : "");
@@ -96,7 +100,7 @@ export class Readout {
       const a = k >= 0 ? angles(track.ring, k) : null;
       key.style.setProperty("--key", `var(--m${track.colour})`);
       say(name, track.method.name);
-      const [first, second] = a ? (this.joint ? [a.angle, a.turn] : [a.heading, a.tilt]) : [NaN, NaN];
+      const [first, second] = a ? (this.about ? [a.angle, a.turn] : [a.heading, a.tilt]) : [NaN, NaN];
       say(value, a ? `${fixed(first, 1)}°  ·  ${fixed(second, 1)}°${track.ring.valid(k) ? "" : "  not valid"}` : "–");
     });
   }
