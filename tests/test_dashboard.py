@@ -136,7 +136,7 @@ def test_pause_scrub_and_download(browser: Any, tmp_path: Path) -> None:
         with sending(live, "turntable", first=live.hub.devices["turntable"].next) as source:
             shown.waits_for("window.poise.drawn('turntable')?.sequence > 300")
             page.get_by_role("button", name="Pause").click()
-            time.sleep(0.3)  # for the redraw
+            time.sleep(1.5)  # for the redraw, and what was on its way
             stopped = shown.drawn("turntable")
             before = source.sent
             wait_for(lambda: source.sent > before + 50)
