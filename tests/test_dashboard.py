@@ -288,6 +288,22 @@ def test_an_address_may_be_anything(browser: Any, address: str) -> None:
         shown.must_be_clean()
 
 
+def test_a_device_that_was_there_for_a_moment_is_shown(browser: Any) -> None:
+    with serving() as live, page_of(browser, live) as shown, sending(live, "band"):
+        page = shown.open()
+        shown.waits_for("window.poise.drawn('band')?.sequence > 20")
+        names = [f"brief-{k}" for k in range(6)]
+        for name in names:  # one after the other: the list of devices is told five times a second
+            with live.device(name) as device:
+                device.send(frames.encoded(turning(0, 50), 0))
+            time.sleep(0.1)
+        for name in names:
+            page.locator(".tile", has_text=name).get_by_text("silent").wait_for()
+        shown.waits_for("[...document.querySelectorAll('.tile b')].every((b) => b.textContent !== '–')")
+        assert page.evaluate("poise.store.mainTrack('brief-0').ring.length") <= 4  # none of them twice
+        shown.must_be_clean()
+
+
 def test_many_devices_are_tiles_and_one_can_be_chosen_with_the_keyboard(browser: Any) -> None:
     names = tuple(f"unit-{k:02}" for k in range(12))
     with serving() as live, page_of(browser, live) as shown:

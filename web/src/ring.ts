@@ -5,6 +5,7 @@ import { AT, RECORD } from "./protocol";
 const FIRST = 256;
 const WORDS = RECORD / 4;
 const DOUBLES = RECORD / 8;
+const SAME = 48; // bytes that tell records of a device apart: flags, times, number, quaternion
 
 export class Ring {
   private bytes = new Uint8Array(0);
@@ -18,6 +19,7 @@ export class Ring {
 
   /** Appends the record at *offset* of *data*, seen at *at* (s since 1970); never more than *most* are kept. */
   push(data: Uint8Array, offset: number, at: number, most: number): void {
+    if (this.length && this.same(this.slot(this.length - 1), data, offset)) return;
     if (this.length === this.capacity && this.capacity < most) this.grow(Math.min(most, Math.max(FIRST, 2 * this.capacity)));
     if (this.length === this.capacity) {
       this.first = (this.first + 1) % this.capacity;
@@ -27,6 +29,12 @@ export class Ring {
     this.bytes.set(data.subarray(offset, offset + RECORD), slot * RECORD);
     this.stamps[slot] = this.length ? Math.max(at, this.stamps[this.slot(this.length - 1)]) : at;
     this.length++;
+  }
+
+  /** Whether the record in *slot* is this one: a server that is asked again sends its newest again. */
+  private same(slot: number, data: Uint8Array, offset: number): boolean {
+    for (let k = 0; k < SAME; k++) if (this.bytes[slot * RECORD + k] !== data[offset + k]) return false;
+    return true;
   }
 
   clear(): void {

@@ -35,6 +35,8 @@ export class SocketSource implements Source {
   private heard = 0;
   private asked = 0;
   private retry = 0;
+  /** whether something came of devices that were told of only later */
+  private missed = false;
   private pending = new Map<string, { resolve: () => void; reject: (reason: Error) => void }>();
 
   start(sink: Sink): void {
@@ -82,7 +84,7 @@ export class SocketSource implements Source {
     socket.onmessage = ({ data }) => {
       if (this.socket !== socket) return;
       this.heard = performance.now();
-      if (data instanceof ArrayBuffer) this.sink.frame(data);
+      if (data instanceof ArrayBuffer) this.missed = !this.sink.frame(data) || this.missed;
       else this.hear(JSON.parse(data as string) as Message);
     };
     socket.onclose = () => {
@@ -110,6 +112,10 @@ export class SocketSource implements Source {
       else waiting?.reject(new Error(message.message));
     }
     this.sink.message(message);
+    if (message.type === "devices" && this.missed && this.socket?.readyState === WebSocket.OPEN) {
+      this.missed = false;
+      this.socket.send(JSON.stringify({ type: "subscribe" })); // the newest of all again: one that is silent by now says no more
+    }
   }
 
   /** A refused upgrade looks like a dead server to a page; a plain request tells them apart. */

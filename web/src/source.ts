@@ -11,8 +11,8 @@ export type Connection =
 /** What a source tells. */
 export interface Sink {
   message(message: Message): void;
-  /** A binary frame of attitudes, header included. */
-  frame(data: ArrayBuffer): void;
+  /** A binary frame of attitudes, header included; whether all that they are of was known already. */
+  frame(data: ArrayBuffer): boolean;
   connection(now: Connection): void;
   /** What is held of a device is no more: other rows of it follow. */
   cleared(device: string): void;

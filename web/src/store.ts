@@ -84,16 +84,20 @@ export class Store implements Sink {
     }
   }
 
-  frame(data: ArrayBuffer): void {
+  frame(data: ArrayBuffer): boolean {
+    let known = true;
     const head = new DataView(data);
-    if (head.getUint8(0) !== 1 || head.getUint8(1) !== 2 || head.getUint16(2, true) !== RECORD) return;
+    if (head.getUint8(0) !== 1 || head.getUint8(1) !== 2 || head.getUint16(2, true) !== RECORD) return known;
     const bytes = new Uint8Array(data);
     const now = this.serverNow();
     const most = Math.max(64, Math.min(MOST_RECORDS, Math.floor(MOST_BYTES / RECORD / Math.max(1, this.trackCount))));
     for (let offset = HEADER; offset + RECORD <= data.byteLength; offset += RECORD) {
       const device = this.byNumber.get(head.getUint32(offset, true));
       const track = device?.tracks[head.getUint8(offset + AT.method)];
-      if (!device || !track) continue;
+      if (!device || !track) {
+        known = false;
+        continue;
+      }
       const host = head.getFloat64(offset + 8 * AT.host, true);
       const at = this.instant || Math.abs(host - now) < APART ? host : now;
       track.ring.push(bytes, offset, at, most);
@@ -102,6 +106,7 @@ export class Store implements Sink {
       this.delays.set(device.id, delay === undefined ? now - at : delay + 0.05 * (now - at - delay));
     }
     this.version++;
+    return known;
   }
 
   cleared(device: string): void {
