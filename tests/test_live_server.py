@@ -23,9 +23,10 @@ from poise.live import frames
 from poise.live.access import Access, AccessError, parsed_tokens
 from poise.live.device import Device
 from poise.live.hub import Hub, HubError
+from poise.live.listening import Options, ServerError
 from poise.live.methods import Choice
 from poise.live.replay import Replay
-from poise.live.server import Options, Server, ServerError
+from poise.live.server import Server
 from poise.live.watching import Watch
 from poise.monitor import judge
 from poise.responses import Responses

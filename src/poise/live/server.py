@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-import gc
 import json
 import signal
-import socket
 import time
 from collections.abc import AsyncIterator, Callable, Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,8 +18,10 @@ from poise.live import frames, http
 from poise.live.access import Access, Gate
 from poise.live.hub import Hub, HubError
 from poise.live.joint import Joint
+from poise.live.listening import Listening, Options
 from poise.live.methods import Choice, described
 from poise.live.session import rebuilt
+from poise.live.settled import Settled
 from poise.live.sockets import DeviceSocket, Viewer, choices
 from poise.version import __version__
 
@@ -41,35 +40,12 @@ DASHBOARD = Path(__file__).parent / "dashboard"
 PHONE = Path(__file__).parent / "phone"
 _HEALTH_EVERY = 1.0  # s
 _FLAGS_EVERY = 0.25  # s that a flag stays in `flags_since`, so that every viewer sees it
-_BACKLOG = 8192
 _HEAD_START = (
-    2.0  # s to load the methods before the first device is served: beside a busy loop it takes several times as long
+    1.5  # s to load the methods before the first device is served: beside a busy loop it takes several times as long
 )
 _LIST_EVERY = 0.2  # s between lists of devices
 _PAST_EVENTS = 50  # that a viewer is told when it comes
 _SLICE = 100  # devices in one message on health: thousands would hold up a tick
-
-
-class ServerError(PoiseError):
-    """Why the server cannot start."""
-
-
-@dataclass
-class Options:
-    """Where a server listens, and for whom."""
-
-    host: str = "127.0.0.1"
-    port: int = 8760
-    tokens: dict[str, Any] = field(default_factory=dict)
-    hosts: tuple[str, ...] = ()
-    certificate: tuple[Path, Path] | None = None
-    """certificate and key, for HTTPS"""
-    phone_token: str = ""
-    """what a phone's page shows; given to whoever may write"""
-    made_token: str = ""
-    """a token that was made up at the start, which nobody knows yet"""
-    own_certificate: bool = False
-    """whether this machine made its certificate itself"""
 
 
 class Server:
@@ -100,6 +76,7 @@ class Server:
         self._warming: set[Choice] = set()
         self.refused = 0
         """packets that no device could take"""
+        self._settled = Settled()
         self._said: dict[str, object] = {}
         self._failure: BaseException | None = None
         self._tasks: set[asyncio.Task[None]] = set()
@@ -114,7 +91,7 @@ class Server:
         """Serves until :attr:`stopping` is set or the process is told to stop. Raises :class:`ServerError`."""
         from poise.live.serving import serve
 
-        with _listening(self.options) as sockets:
+        with Listening(self.options) as sockets:
             loop = asyncio.get_running_loop()
             for number in (signal.SIGINT, signal.SIGTERM):
                 with suppress(NotImplementedError, RuntimeError, ValueError):
@@ -185,6 +162,7 @@ class Server:
                 )
                 self._changed |= headings != before  # a magnetometer has spoken: zero means something else now
                 self._look_at_sources()
+                self._settled.look(len(self.hub.devices) + len(self.device_sockets) + len(self.viewers))
             if slices:
                 self._say(partial(self.health, slices.pop()))
             await asyncio.sleep(self.hub.pause)
@@ -194,7 +172,7 @@ class Server:
             await asyncio.to_thread(self.hub.watch.warm)
         for choice in self.hub.methods:
             await self._warm(choice)
-        gc.freeze()  # a compiler's many objects stay: to go over them again and again would hold up ticks by 0.1 s
+        self._settled.freeze()  # a compiler's many objects stay
         while (device := self.hub.next_to_restore()) is not None:
             try:
                 streams = await asyncio.to_thread(rebuilt, device)
@@ -379,33 +357,3 @@ class Server:
                 yield await queue.get()
         finally:
             self.listeners.discard(queue)
-
-
-class _listening:
-    """The listening sockets of *options*, closed at the end. Raises :class:`ServerError` where they cannot be had."""
-
-    def __init__(self, options: Options) -> None:
-        self._options = options
-
-    def __enter__(self) -> list[socket.socket]:
-        host, port = self._options.host, self._options.port
-        try:
-            family, _, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[
-                0
-            ]
-        except (socket.gaierror, OverflowError) as problem:
-            raise ServerError(f"--host {host}: no such address ({problem})") from None
-        self._socket = socket.socket(family, socket.SOCK_STREAM)
-        self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            self._socket.bind(address)
-        except OSError as problem:
-            self._socket.close()
-            reason = "another program listens there; give another --port" if problem.errno in (48, 98) else problem
-            raise ServerError(f"cannot listen on {host} port {port}: {reason}") from None
-        self._socket.listen(_BACKLOG)
-        self._options.port = self._socket.getsockname()[1]
-        return [self._socket]
-
-    def __exit__(self, *_: object) -> None:
-        self._socket.close()
