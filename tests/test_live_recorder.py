@@ -172,6 +172,34 @@ def test_a_full_disk_stops_acknowledgements_and_nothing_else(tmp_path: Path, mon
     same_as_uncut(session, "arm", recording)
 
 
+def test_a_fault_in_the_recorder_is_said_and_costs_what_it_met(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    rows = rows_of(made(6.0))
+    faulty, encoded = [False], journal.encoded_batch
+
+    def broken(batch: Any) -> journal.Encoded:
+        if faulty[0]:
+            raise ZeroDivisionError("a fault of ours")
+        return encoded(batch)
+
+    monkeypatch.setattr(journal, "encoded_batch", broken)
+    recorder = Recorder(Session.below(tmp_path))
+    with serving(recorder=recorder) as live, live.device("arm") as device:
+        send(device, rows[:200])
+        acknowledged(device, 200)
+        faulty[0] = True
+        send(device, rows[200:400], first=200)
+        assert "a fault of ours" in heard(device, "recording")["reason"]
+        wait_for(lambda: recorder.lost == 200)
+        faulty[0] = False
+        send(device, rows[400:], first=400)
+        ack = heard(device, "ack")
+        while ack["next"] < 600:
+            ack = heard(device, "ack")
+        assert ack["lost"] == 200
+    (session,) = tmp_path.iterdir()
+    assert len(poise.read(session / "arm.parquet")) == 400
+
+
 def test_what_cannot_wait_any_longer_is_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     rows = rows_of(made(10.0))
     blocked = [True]

@@ -77,6 +77,8 @@ class Server:
         self.refused = 0
         """packets that no device could take"""
         self._settled = Settled()
+        self.ended: dict[Source, str] = {}
+        """sources that give nothing any more, each with what went wrong, if anything"""
         self._said: dict[str, object] = {}
         self._failure: BaseException | None = None
         self._tasks: set[asyncio.Task[None]] = set()
@@ -202,20 +204,43 @@ class Server:
         if hasattr(source, "tell"):
             source.tell = lambda text: self.hub.event("source", None, text)
         timebase = source.name if getattr(source, "one_clock", False) else ""
+        waits = getattr(source, "can_wait", False)
         try:
             async for arrival in source.arrivals():
                 device = self.hub.devices.get(arrival.device)
                 try:
                     device = self.hub.device(arrival.device, source.name, source.shape)
                     device.timebase = timebase
-                    device.receive(arrival.rows, time.monotonic(), arrival.sequence)
+                    now = time.monotonic()
+                    if waits or device.allowance.grants(len(arrival.rows), now, self.hub.max_rate):
+                        device.receive(arrival.rows, now, arrival.sequence)
+                    else:
+                        self._throttle(device, len(arrival.rows))
                 except PoiseError as problem:
                     self._refused(device, source.name, problem)
-                while device is not None and not device.runs and getattr(source, "can_wait", False):
+                while waits and device is not None and not device.runs:
                     await asyncio.sleep(0.02)  # for the method to be loaded
+            self.ended[source] = ""
             self.hub.event("end", None, f"{source.name} has come to its end")
         except (PoiseError, OSError) as problem:
+            self.ended[source] = str(problem)
             self.hub.event("failed", None, f"{source.name}: {problem}")
+
+    def _throttle(self, device: Device, samples: int) -> None:
+        """Counts what was too much of a source that cannot be cut off; says so at the first and then every 100 000th."""
+        before, device.health.throttled = device.health.throttled, device.health.throttled + samples
+        if not before or before // 100_000 != device.health.throttled // 100_000:
+            text = f"more than {self.hub.max_rate:g} samples a second are not taken; `--max-rate` allows more"
+            self.hub.event("throttled", device, f"{device.name}: {text}")
+
+    def conditions(self) -> list[dict[str, Any]]:
+        """How the sources fare: *ok*, *ended*, *waiting* for one that is away, or *failed* for good, and why."""
+        found = []
+        for source in self.sources:
+            text = self.ended.get(source, getattr(source, "trouble", ""))
+            state = ("failed" if text else "ended") if source in self.ended else "waiting" if text else "ok"
+            found.append({"name": source.name, "state": state, "text": text})
+        return found
 
     def _look_at_sources(self) -> None:
         """Says what is amiss with a source that goes on: nothing else would tell why no device appears."""
@@ -323,6 +348,7 @@ class Server:
             "type": "health",
             "time": time.time(),
             "devices": hub.conditions(devices or hub.shown, now),
+            "sources": self.conditions(),
             "viewers": len(self.viewers),
             "wait_ms": {"p50": round(1e3 * waits.quantile(0.5), 3), "p99": round(1e3 * waits.quantile(0.99), 3)},
             "recording": self.recorder.condition() if self.recorder else None,
