@@ -27,8 +27,9 @@ from poise.live.described import Decoder, Description
 from poise.live.device import Device
 from poise.live.devices import DeviceError
 from poise.live.mqtt import Mqtt
+from poise.live.replay import Replay
 from poise.live.serial_port import SerialPort
-from poise.live.sources import source
+from poise.live.sources import apart, source
 from poise.live.udp import Udp
 
 RECORDING = made(3.0)
@@ -318,7 +319,19 @@ def test_a_description_that_cannot_be_is_refused(tmp_path: Path, text: str, says
 
 
 @pytest.mark.parametrize(
-    "word", ["", "usb:1", "udp:nowhere", "udp::99999", "serial:", "mqtt://", "replay:", "replay:x@0x"]
+    "word",
+    [
+        "",
+        "usb:1",
+        "udp:nowhere",
+        "udp::99999",
+        "serial:",
+        "mqtt://",
+        "replay:",
+        "replay:x@0x",
+        "replay:x@1.2.3",
+        "sim:arm@..",
+    ],
 )
 def test_words_that_name_no_source(word: str) -> None:
     with pytest.raises(DeviceError):
@@ -330,6 +343,12 @@ def test_a_speed_behind_a_replay() -> None:
         found = source(word, lambda path: RECORDING)
         assert found is not None
         assert found.name.startswith("replay of")
+
+
+def test_replays_of_one_name_are_devices_of_their_own() -> None:
+    words = ("replay:walk.csv", "replay:walk.csv@2", "replay:other/walk.csv")
+    found = apart([each for word in words if (each := source(word, lambda path: RECORDING))])
+    assert [each.device for each in found if isinstance(each, Replay)] == ["replay", "replay-2", "replay-3"]
 
 
 def test_no_bytes_bring_a_decoder_down() -> None:

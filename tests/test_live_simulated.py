@@ -114,6 +114,8 @@ def test_what_cannot_be(text: str, said: str) -> None:
 def test_the_command_says_what_is_missing(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["live", "sim:arm", "sim:arm?seed=2", "-m", METHOD, "--port", "0"]) == 2
     assert "forearm: two sources" in capsys.readouterr().err
+    assert run(["live", "sim:arm?name=a/b", "-m", METHOD, "--port", "0"]) == 2
+    assert "'a/b-forearm': expected 1 to 64 letters" in capsys.readouterr().err
     monkeypatch.setitem(sys.modules, "mujoco", None)
     assert run(["live", "sim:arm", "-m", METHOD, "--port", "0"]) == 2
     assert 'pip install "poise[sim]"' in capsys.readouterr().err.replace("'", '"')

@@ -158,6 +158,22 @@ def test_a_phones_attitude_is_that_of_its_recording(
     assert apart(browsers.as_quat()[: len(found), [3, 0, 1, 2]], offline.quat[: len(found)]).min() > 3.0
 
 
+def test_a_phone_that_shows_the_dashboard_gets_to_its_page_by_a_tap(browser: Any) -> None:
+    everything = "every-token-of-16"
+    with serving(tokens={everything: frozenset({"read", "write", "device"})}) as running:
+        context = browser.new_context(viewport={"width": 390, "height": 844})
+        page = context.new_page()
+        page.goto(f"http://{running.address}/#token={everything}")
+        page.get_by_role("button", name="phone").click()
+        page.get_by_role("dialog").get_by_text("no phone can get here").wait_for()  # as it serves this machine only
+        page.get_by_role("link", name="Open that page here").click()
+        page.fill("#name", "pocket")
+        begin(page)
+        wait_for(lambda: "pocket" in running.hub.devices)
+        assert everything not in page.url
+        context.close()
+
+
 def test_cut_connections_lose_nothing(browser: Any, motion: Any) -> None:
     recording, truth = motion
     rows = events(recording, truth, 1.0, (2, 0, 1))

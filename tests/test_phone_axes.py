@@ -136,6 +136,8 @@ def test_a_devices_query_names_its_shape_and_axes() -> None:
     assert (shape, str(axes)) == ("phone", "-x-y-z,+b+g+a,deg")
     with pytest.raises(DeviceError, match="shape 'cube': expected one of board"):
         asked(b"shape=cube")
+    with pytest.raises(DeviceError, match="shape 'joint'"):  # which is no device
+        asked(b"shape=joint")
     with pytest.raises(DeviceError, match="axes 'up'"):
         asked(b"axes=up")
 

@@ -13,7 +13,7 @@ import poise
 from browsing import chromium, page_of, until
 from data_files import data_path
 from live_helpers import METHOD, serving
-from poise.live.film import Film, Strip, of_recording
+from poise.live.film import Film, Strip, of_attitude, of_recording
 from poise.simulation import Sensor, forearm, measure
 
 pytest.importorskip("starlette", reason="the extra `live` is not installed")
@@ -107,3 +107,60 @@ def test_two_films_have_tiles_at_phone_width(browser: Any) -> None:
             page.locator(".tile").last.click()
             page.wait_for_selector(".detail")
             until(page, "document.documentElement.scrollWidth <= innerWidth")
+
+
+@pytest.mark.parametrize("address", ["", "?", "?x=1&view", "#/nobody", "#/%"])
+def test_any_address_of_its_server_shows_the_recording(browser: Any, address: str) -> None:
+    shown, _ = film_of(measure(forearm(5.0, rate=50.0), Sensor(), seed=5))
+    with serving(films=[shown]) as running, page_of(browser, f"http://{running.address}/{address}") as page:
+        page.locator(".errors").wait_for()
+        until(page, "poise.store.edge() > 1")
+
+
+def test_how_one_body_stood_seen_from_another_has_no_heading(browser: Any) -> None:
+    _, attitude = film_of(measure(forearm(5.0, rate=50.0), Sensor(), seed=6))
+    shown = of_attitude("elbow", attitude.relative_to(attitude[::2].resample(attitude.time)))
+    with serving(films=[shown]) as running, page_of(browser, f"http://{running.address}/?view") as page:
+        page.get_by_text("seen from another body").wait_for()
+        assert page.locator(".chart h3").all_inner_texts() == ["Angle", "Turn", "Pitch", "Roll", "Rate"]
+
+
+COLUMNS = """plot => {
+    const canvas = document.querySelectorAll('.plot canvas')[plot], { width, height } = canvas;
+    const copy = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
+    copy.drawImage(canvas, 0, 0);
+    const { data } = copy.getImageData(0, 0, width, height);
+    const blue = (x, y) => data[4 * (y * width + x)] < 120 && data[4 * (y * width + x) + 2] > 180;
+    const heights = Array.from({ length: width }, (_, x) => [...Array(height).keys()].filter((y) => blue(x, y)).length);
+    return [heights.slice(Math.round(0.12 * width), Math.round(0.97 * width)), height];
+}"""
+
+
+def columns(page: Any, plot: int) -> np.ndarray[Any, Any]:
+    """How much of each column of *plot* its line covers, as the picture stands once it stays the same."""
+    found: list[Any] = []
+    while len(found) < 3 or found[-1] != found[-3] or not any(found[-1][0]):
+        assert len(found) < 60
+        page.wait_for_timeout(400)
+        found.append(page.evaluate(COLUMNS, plot))
+    heights, height = found[-1]
+    return np.array(heights) / height
+
+
+@pytest.mark.parametrize(("axis", "plot"), [(2, 0), (1, 2)], ids=["heading", "roll"])
+def test_an_angle_that_goes_round_is_drawn_without_lines_across_and_never_away(
+    browser: Any, axis: int, plot: int
+) -> None:
+    time = np.arange(0.0, 100.0, 0.02)
+    quat = np.zeros((len(time), 4))
+    quat[:, 0], quat[:, 1 + axis] = np.cos(8.0 * time), np.sin(8.0 * time)  # once round in 0.4 s
+    shown = of_attitude("top", poise.Attitude.of(time, quat))
+    with serving(films=[shown]) as running, page_of(browser, f"http://{running.address}/?view") as page:
+        until(page, "poise.store.edge() > 1")
+        assert np.mean(columns(page, plot) > 0.3) > 0.95  # of all 255 turns: a solid band
+        page.locator("label[for=window-5]").click()
+        page.evaluate("poise.playhead.seek(50)")
+        until(page, "poise.store.version === poise.painted()")
+        slopes = columns(page, plot)  # of thirteen
+        assert np.mean(slopes > 0.0) > 0.85
+        assert slopes.max() < 0.5

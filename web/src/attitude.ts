@@ -14,10 +14,15 @@ export interface Angles {
   roll: number;
   /** between the body's z and up */
   tilt: number;
+  /** about the Earth's or the base's z, to the left, −180 to 180 */
+  turn: number;
+  /** of the whole rotation, 0 to 180: what a joint is bent by */
+  angle: number;
   sigmaHeading: number;
   sigmaPitch: number;
   sigmaRoll: number;
   sigmaTilt: number;
+  sigmaAngle: number;
 }
 
 export function angles(ring: Ring, k: number): Angles {
@@ -41,16 +46,22 @@ export function angles(ring: Ring, k: number): Angles {
   const sine = Math.sin(bearing);
   const cosine = Math.cos(bearing);
   const lean = Math.hypot(upEast, upNorth);
+  const up = ring.value(k, AT.sigma + 2) * DEGREES;
+  const half = Math.hypot(x, y, z);
   const [leanEast, leanNorth] = lean > 1e-6 ? [upEast / lean, upNorth / lean] : [Math.SQRT1_2, Math.SQRT1_2];
   return {
     heading: heading < 0 ? heading + 360 : heading,
     pitch: Math.asin(Math.max(-1, Math.min(1, forwardUp))) * DEGREES,
     roll: Math.atan2(-rightUp, upUp) * DEGREES,
     tilt: Math.atan2(lean, upUp) * DEGREES,
-    sigmaHeading: ring.value(k, AT.sigma + 2) * DEGREES,
+    turn: -heading,
+    angle: 2 * Math.atan2(half, Math.abs(w)) * DEGREES,
+    sigmaHeading: up,
     sigmaPitch: Math.hypot(east * cosine, north * sine),
     sigmaRoll: Math.hypot(east * sine, north * cosine),
     sigmaTilt: Math.hypot(east * leanNorth, north * leanEast),
+    // about the axis that it is turned about; where it is not, about any
+    sigmaAngle: half > 1e-3 ? Math.hypot(x * east, y * north, z * up) / half : Math.hypot(east, north, up) / Math.sqrt(3),
   };
 }
 

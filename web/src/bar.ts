@@ -13,7 +13,7 @@ export class Bar {
   private shown: string | null | undefined;
 
   constructor(private store: Store, phone: PhoneDialog, download: DownloadDialog, private chosen: () => string | null) {
-    this.phone = h("button", { id: "phone", hidden: true, onclick: () => void phone.open() }, "Use a phone");
+    this.phone = h("button", { id: "phone", hidden: true, onclick: () => void phone.open() }, h("span", { class: "wide" }, "Use a "), "phone");
     this.download = h("button", { id: "download", onclick: () => void download.open(this.chosen()) }, "Download");
     byId("bar").append(h("a", { class: "mark", href: "#/", "aria-label": "poise, all devices" }, "poise"), this.crumb, this.recording, this.state, this.phone, this.download);
   }
@@ -26,7 +26,7 @@ export class Bar {
     if (key !== this.shown) {
       this.shown = key;
       this.crumb.replaceChildren(
-        ...(many ? [chosen ? h("a", { href: "#/" }, `${devices.size} devices`) : h("span", {}, `${devices.size} devices`)] : []),
+        ...(many ? [chosen ? h("a", { class: "back", href: "#/", "aria-label": `${devices.size} devices` }, h("span", { class: "wide" }, `${devices.size} devices`)) : h("span", {}, `${devices.size} devices`)] : []),
         ...(chosen ? [h("h1", {}, chosen)] : []),
       );
       document.title = chosen ? `${chosen} – poise` : "poise";

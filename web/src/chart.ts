@@ -26,8 +26,8 @@ export interface ChartSpec {
   lines: Line[];
   /** a band around each line: two more series a line, upper and lower */
   bands: boolean;
-  /** a compass: from 0 to 360 once most of it is used, and broken where it passes north */
-  compass?: boolean;
+  /** an angle that goes on at its other end: all of it once most of it is used, and broken where it passes the end */
+  turn?: [number, number];
   /** the last of its group, which has the times */
   foot?: boolean;
 }
@@ -110,7 +110,7 @@ export class Chart {
   private options(width: number, height: number): uPlot.Options {
     const { spec } = this;
     const [ink, line] = [css("--muted"), css("--line")];
-    const gaps = spec.compass ? { gaps: wraps } : {};
+    const gaps = spec.turn ? { gaps: wraps } : {};
     const series: uPlot.Series[] = [{}];
     const bands: uPlot.Band[] = [];
     for (const each of spec.lines) {
@@ -198,27 +198,35 @@ function clock(plot: uPlot, splits: number[]): string[] {
   return splits.map((s) => (s > max! - room ? "" : CLOCK.format(1000 * s)));
 }
 
-/** Gaps where a heading passes north: a null between two points of one pixel would not be seen. */
+const NEAR = 10; // px between two passes, below which both are drawn: gaps would leave nothing
+
+/** Gaps where an angle passes its end: a null between two points of one pixel would not be seen. */
 function wraps(plot: uPlot, index: number, first: number, last: number, found: uPlot.Series.Gaps): uPlot.Series.Gaps {
   const stamps = plot.data[0];
   const values = plot.data[index];
+  const passes: [number, number][] = [];
   let before: number | null | undefined = null;
   let left = 0;
-  const halo = Math.ceil(1.5 * devicePixelRatio); // the width of the line
   for (let k = first; k <= last; k++) {
     const value = values[k];
     if (value === null || value === undefined) continue;
     const at = Math.round(plot.valToPos(stamps[k], "x", true));
-    if (before !== null && before !== undefined && Math.abs(value - before) > 180) found.push([left - halo, at + halo]);
+    if (before !== null && before !== undefined && Math.abs(value - before) > 180) passes.push([left, at]);
     before = value;
     left = at;
   }
+  const halo = Math.ceil(1.5 * devicePixelRatio); // the width of the line
+  const near = NEAR * devicePixelRatio;
+  passes.forEach(([from, to], n) => {
+    const alone = (n === 0 || from - passes[n - 1][1] > near) && (n + 1 === passes.length || passes[n + 1][0] - to > near);
+    if (alone) found.push([from - halo, to + halo]);
+  });
   return found.sort((a, b) => a[0] - b[0]);
 }
 
-function span(low: number | null, high: number | null, { least, compass }: ChartSpec): [number, number] {
+function span(low: number | null, high: number | null, { least, turn }: ChartSpec): [number, number] {
   if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) return [-least / 2, least / 2];
-  if (compass && high - low > 200) return [0, 360];
+  if (turn && high - low > 200) return turn;
   const middle = (low + high) / 2;
   const half = Math.max(least, 1.12 * (high - low)) / 2;
   return [middle - half, middle + half];

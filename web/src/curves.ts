@@ -2,20 +2,27 @@
 
 import type uPlot from "uplot";
 import { angles } from "./attitude";
+import type { Angles } from "./attitude";
 import type { Stretch } from "./chart";
-import { AT } from "./protocol";
 import type { Ring } from "./ring";
 import type { Store, Track } from "./store";
 
 type Column = (number | null)[];
 
+/** An angle over time: its value, and its sigma. */
+export type Quantity = "heading" | "turn" | "pitch" | "roll" | "angle";
+
+const VALUES: Record<Quantity, (a: Angles) => [number, number]> = {
+  heading: (a) => [a.heading, a.sigmaHeading],
+  turn: (a) => [a.turn, a.sigmaHeading],
+  pitch: (a) => [a.pitch, a.sigmaPitch],
+  roll: (a) => [a.roll, a.sigmaRoll],
+  angle: (a) => [a.angle, a.sigmaAngle],
+};
+
 export interface Windowed {
-  heading: uPlot.AlignedData;
-  pitch: uPlot.AlignedData;
-  roll: uPlot.AlignedData;
-  gyr: uPlot.AlignedData;
-  acc: uPlot.AlignedData;
-  mag: uPlot.AlignedData;
+  /** by quantity, and by the sensors' fields */
+  data: Map<Quantity | number, uPlot.AlignedData>;
   /** s since 1970, of the main method's rows */
   stretches: Stretch[];
   lanes: Lane[];
@@ -34,26 +41,16 @@ function bounds(ring: Ring, from: number, to: number): [number, number] {
   return [Math.max(0, ring.find(from)), ring.find(to) + 1];
 }
 
-/** Angles of *tracks* and the samples of the first of them, between two instants. */
-export function windowed(store: Store, tracks: Track[], from: number, to: number): Windowed {
+/** *quantities* of *tracks* and the vectors at *fields* of the first of them, between two instants. */
+export function windowed(store: Store, tracks: Track[], from: number, to: number, quantities: Quantity[], fields: number[]): Windowed {
   const spans = tracks.map(({ ring }) => bounds(ring, from, to));
   const stamps = merged(tracks, spans);
-  const named = { heading: [stamps] as Column[], pitch: [stamps] as Column[], roll: [stamps] as Column[] };
-  tracks.forEach((track, t) => {
-    const columns = angleColumns(track.ring, spans[t], stamps as number[], tracks.length === 1);
-    named.heading.push(...columns.slice(0, 3));
-    named.pitch.push(...columns.slice(3, 6));
-    named.roll.push(...columns.slice(6, 9));
-  });
+  const data = new Map<Quantity | number, uPlot.AlignedData>();
+  const columns = tracks.map((track, t) => angleColumns(track.ring, spans[t], stamps as number[], tracks.length === 1, quantities));
+  quantities.forEach((quantity, q) => data.set(quantity, [stamps, ...columns.flatMap((each) => each.slice(3 * q, 3 * q + 3))] as uPlot.AlignedData));
   const main = tracks[0]?.ring;
-  const sensors = (field: number) => (main ? sensorColumns(main, spans[0], field) : [[], [], [], []]) as uPlot.AlignedData;
-  return {
-    ...(named as unknown as Pick<Windowed, "heading" | "pitch" | "roll">),
-    gyr: sensors(AT.gyr),
-    acc: sensors(AT.acc),
-    mag: sensors(AT.mag),
-    ...(main ? flagged(store, main, spans[0]) : { stretches: [], lanes: [] }),
-  };
+  for (const field of fields) data.set(field, (main ? sensorColumns(main, spans[0], field) : [[], [], [], []]) as uPlot.AlignedData);
+  return { data, ...(main ? flagged(store, main, spans[0]) : { stretches: [], lanes: [] }) };
 }
 
 /** All instants of several rings, each once: rows of one device's methods have the same stamps. */
@@ -70,18 +67,16 @@ function stampsOf(ring: Ring, [first, end]: [number, number]): number[] {
   return stamps;
 }
 
-function angleColumns(ring: Ring, [first, end]: [number, number], stamps: number[], alone: boolean): Column[] {
-  const columns: Column[] = Array.from({ length: 9 }, () => new Array<number | null>(stamps.length).fill(null));
+function angleColumns(ring: Ring, [first, end]: [number, number], stamps: number[], alone: boolean, quantities: Quantity[]): Column[] {
+  const columns: Column[] = Array.from({ length: 3 * quantities.length }, () => new Array<number | null>(stamps.length).fill(null));
   let row = 0;
   for (let k = first; k < end; k++) {
     const at = ring.at(k);
     if (alone) row = k - first;
     else while (stamps[row] < at) row++;
-    const a = angles(ring, k);
     if (k > first && at - ring.at(k - 1) > GAP) continue; // one row less, so that the line is broken
-    put(columns, 0, row, a.heading, a.sigmaHeading);
-    put(columns, 3, row, a.pitch, a.sigmaPitch);
-    put(columns, 6, row, a.roll, a.sigmaRoll);
+    const a = angles(ring, k);
+    quantities.forEach((quantity, q) => put(columns, 3 * q, row, ...VALUES[quantity](a)));
   }
   return columns;
 }

@@ -1,6 +1,6 @@
 // Dialogs: a token, a phone, downloads.
 
-import { csv, save } from "./csv";
+import { csv, save, saveFile } from "./csv";
 import { h, say } from "./dom";
 import type { Source } from "./source";
 import type { Store } from "./store";
@@ -36,6 +36,11 @@ export class TokenDialog {
     });
   }
 
+  /** It is no longer needed. */
+  close(): void {
+    this.element.close();
+  }
+
   ask(reason: string): void {
     say(this.reason, reason);
     if (!this.element.open) this.element.showModal();
@@ -55,10 +60,7 @@ export class PhoneDialog {
   async open(): Promise<void> {
     this.element.showModal();
     const answer = await this.source.get("/phone/qr.svg").catch(() => null);
-    if (!answer?.ok) {
-      const reason = await answer?.json().catch(() => null);
-      return say(this.image, (reason as { error?: string } | null)?.error ?? "The server has no code to show.");
-    }
+    if (!answer?.ok) return say(this.image, answer ? await reason(answer) : "The server cannot be reached.");
     const picture = h("img", { alt: "QR code of the page for phones", src: URL.createObjectURL(new Blob([await answer.text()], { type: "image/svg+xml" })) });
     this.image.replaceChildren(picture);
   }
@@ -66,17 +68,19 @@ export class PhoneDialog {
 
 interface Kept {
   name: string;
-  bytes: number;
+  /** null: it is being recorded */
+  bytes: number | null;
   url: string;
 }
 
 export class DownloadDialog {
   private held = h("div", { class: "held" });
   private recordings = h("div", { class: "held" });
+  private answer = h("p", { class: "answer", role: "status", "aria-live": "polite" });
   private element: HTMLDialogElement;
 
   constructor(private store: Store, private source: Source) {
-    this.element = dialog("Download", this.held, this.recordings, closing(() => this.element));
+    this.element = dialog("Download", this.held, this.recordings, this.answer, closing(() => this.element));
   }
 
   async open(id: string | null): Promise<void> {
@@ -84,23 +88,66 @@ export class DownloadDialog {
     const button = h("button", { id: "save-csv", class: "main", onclick: () => save(`poise-${id ?? "devices"}-${new Date().toISOString().slice(0, 19).replaceAll(":", "-")}.csv`, csv(this.store, ids)) }, "Save as CSV");
     this.held.replaceChildren(h("h3", {}, "What this page holds"), h("p", {}, `The last minutes of ${id ?? `${count(ids.length)} devices`}, 30 rows a second: attitude, sigma, sensors, flags.`), button);
     this.recordings.replaceChildren();
+    say(this.answer, "");
     this.element.showModal();
     if (!this.store.hello?.recording || !this.store.hello.offers.includes("/recordings")) return;
-    const answer = await this.source.get("/recordings").catch(() => null);
-    if (!answer?.ok) return;
-    const files = (await answer.json()) as Kept[];
-    this.recordings.replaceChildren(h("h3", {}, "Recorded by the server, every sample"), ...files.map((file) => this.file(file)));
-    if (!files.length) this.recordings.append(h("p", { class: "none" }, "Nothing yet."));
+    try {
+      const files = (await (await this.fetched("/recordings")).json()) as Kept[];
+      files.sort((a, b) => sessionOf(b).localeCompare(sessionOf(a), "en")); // what is being recorded, then the newest
+      const rows = files.length ? files.map((file) => this.file(file)) : [h("p", { class: "none" }, "Nothing yet.")];
+      this.recordings.replaceChildren(h("h3", {}, "Recorded by the server, every sample"), h("div", { class: "files" }, ...rows));
+    } catch (problem) {
+      this.tell(`What was recorded cannot be listed: ${(problem as Error).message}`, true);
+    }
   }
 
-  /** A plain link cannot carry a token: the file is fetched with it and saved from here. */
+  /** A plain link can neither carry a token nor say why there is no file: it is fetched, and saved from here. */
   private file({ name, bytes, url }: Kept): HTMLElement {
-    const fetched = async () => {
-      const answer = await this.source.get(url);
-      if (!answer.ok) return;
-      const link = h("a", { href: URL.createObjectURL(await answer.blob()), download: name.split("/").pop() });
-      link.click();
+    const fetch = async () => {
+      button.disabled = true;
+      this.tell(`Fetching ${name} …`);
+      try {
+        const file = await (await this.fetched(url)).blob();
+        saveFile(name.split("/").pop()!, file);
+        this.tell(`${name}: ${size(file.size)}`);
+      } catch (problem) {
+        this.tell((problem as Error).message, true);
+      }
+      button.disabled = false;
     };
-    return h("p", { class: "file" }, h("button", { class: "quiet", onclick: () => void fetched() }, name), h("span", {}, bytes >= 1e6 ? `${(bytes / 1e6).toFixed(1)} MB` : `${(bytes / 1e3).toFixed(0)} kB`));
+    const button = h("button", { class: "quiet", onclick: () => void fetch() }, name);
+    return h("p", { class: "file" }, button, h("span", {}, bytes === null ? "being recorded" : size(bytes)));
+  }
+
+  /** The server's answer; rejects with its reason where it has none. */
+  private async fetched(path: string): Promise<Response> {
+    const answer = await this.source.get(path).catch(() => {
+      throw new Error("the server cannot be reached");
+    });
+    if (answer.ok) return answer;
+    throw new Error(await reason(answer));
+  }
+
+  private tell(text: string, bad = false): void {
+    say(this.answer, text);
+    this.answer.classList.toggle("bad", bad);
+  }
+}
+
+function sessionOf({ name }: Kept): string {
+  return name.split("/")[0];
+}
+
+function size(bytes: number): string {
+  return bytes >= 1e6 ? `${(bytes / 1e6).toFixed(1)} MB` : `${Math.ceil(bytes / 1e3)} kB`;
+}
+
+/** Why the server does not do it: of JSON its `error`, else its text. */
+async function reason(answer: Response): Promise<string> {
+  const text = await answer.text().catch(() => "");
+  try {
+    return (JSON.parse(text) as { error: string }).error;
+  } catch {
+    return text.trim() || `the server answers ${answer.status}`;
   }
 }

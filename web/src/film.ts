@@ -55,6 +55,7 @@ export class FilmSource implements Source {
       const answer = await this.get("/films");
       if (!answer.ok) throw new Error(await answer.text());
       const { server, flags, invalid_flags, films } = (await answer.json()) as Films;
+      if (!films.length) return location.replace(location.pathname + location.hash); // a server of `poise live`
       films.forEach((film, k) => this.films.set(films.findIndex((each) => each.id === film.id) === k ? film.id : `${film.id} ${k + 1}`, film));
       this.sink.connection({ state: "open" });
       this.sink.message({ type: "hello", server, flags, invalid_flags, time: Date.now() / 1000, may_write: false, methods: [], offers: [], recording: null });

@@ -17,8 +17,9 @@ interface Tile {
   element: HTMLAnchorElement;
   view: BodyView;
   shape: string;
-  heading: HTMLElement;
-  tilt: HTMLElement;
+  /** heading and tilt, or of a joint angle and turn */
+  first: HTMLElement;
+  second: HTMLElement;
   state: HTMLElement;
 }
 
@@ -69,18 +70,19 @@ export class Grid {
 
   private tile(device: DeviceInfo): Tile {
     const body = h("div", { class: "body" });
-    const [heading, tilt, state] = [h("b"), h("b"), h("span", { class: "chip" })];
+    const [first, second, state] = [h("b"), h("b"), h("span", { class: "chip" })];
+    const names = device.shape === "joint" ? ["Angle", "Turn"] : ["Heading", "Tilt"];
     const element = h(
       "a",
       { class: "tile", href: route(device.id) },
       body,
       h("div", { class: "name" }, device.id),
-      h("dl", {}, h("div", {}, h("dt", {}, "Heading"), h("dd", {}, heading, "°")), h("div", {}, h("dt", {}, "Tilt"), h("dd", {}, tilt, "°"))),
+      h("dl", {}, ...names.map((name, k) => h("div", {}, h("dt", {}, name), h("dd", {}, [first, second][k], "°")))),
       state,
     );
     h("div", { role: "listitem" }, element);
     this.watcher.observe(element);
-    return { element, view: new BodyView(this.store, this.playhead, device.id, body, device.shape, false), shape: device.shape, heading, tilt, state };
+    return { element, view: new BodyView(this.store, this.playhead, device.id, body, device.shape, false), shape: device.shape, first, second, state };
   }
 
   drawn(id: string): Drawn | null {
@@ -100,8 +102,10 @@ export class Grid {
     const invalid = track ? (following ? this.store.whyInvalid(track, k) : k < 0 || !track.ring.valid(k) ? "not valid" : "") : "no method";
     const tip = this.store.tipOf(id);
     const a = track && k >= 0 ? angles(track.ring, k) : null;
-    say(tile.heading, fixed(a?.heading ?? NaN, 0));
-    say(tile.tilt, fixed(a?.tilt ?? NaN, 0));
+    const joint = tile.shape === "joint";
+    const [first, second] = a ? (joint ? [a.angle, a.turn] : [a.heading, a.tilt]) : [NaN, NaN];
+    say(tile.first, fixed(first, 0));
+    say(tile.second, fixed(second, 0));
     const alarming = tip !== null && ALARMING.has(tip);
     const condition = this.store.conditions.get(id)?.state ?? "waiting";
     const word = alarming ? tipWord(tip) : invalid ? (condition === "live" ? "not valid" : (STATES[condition] ?? condition)) : tip !== null ? tipWord(tip) : "valid";
@@ -109,6 +113,6 @@ export class Grid {
     tile.element.classList.toggle("alarming", alarming);
     tile.element.classList.toggle("invalid", !alarming && invalid !== "");
     tile.element.title = invalid;
-    tile.element.setAttribute("aria-label", `${id}: ${word}${a ? `, heading ${fixed(a.heading, 0)} degrees, tilt ${fixed(a.tilt, 0)} degrees` : ""}`);
+    tile.element.setAttribute("aria-label", `${id}: ${word}${a ? `, ${joint ? "angle" : "heading"} ${fixed(first, 0)} degrees, ${joint ? "turn" : "tilt"} ${fixed(second, 0)} degrees` : ""}`);
   }
 }

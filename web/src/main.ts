@@ -46,9 +46,14 @@ class Page {
     this.store.on(["hello", "devices"], () => this.show());
     this.store.on(["connection"], () => {
       if (this.store.link.state === "refused") token.ask(this.store.link.reason);
+      else if (this.store.link.state === "open") token.close();
       this.slow();
     });
-    addEventListener("hashchange", () => this.show());
+    addEventListener("hashchange", () => {
+      const token = tokenFromAddress();
+      if (token) source.identify(token);
+      this.show();
+    });
     addEventListener("keydown", (key) => {
       if (key.key === "Escape" && this.chosen && this.store.devices.size > 1 && !document.querySelector("dialog[open]")) location.hash = "#/";
     });
@@ -61,7 +66,7 @@ class Page {
 
   /** The device of the address; the only one there is where the address names none. */
   private get chosen(): string | null {
-    const named = location.hash.startsWith("#/") ? decodeURIComponent(location.hash.slice(2)) : "";
+    const named = deviceOf(location.hash);
     if (this.store.devices.has(named)) return named;
     return this.store.devices.size === 1 ? [...this.store.devices.keys()][0] : null;
   }
@@ -69,7 +74,9 @@ class Page {
   private show(): void {
     const { devices, hello } = this.store;
     const { chosen } = this;
-    const key = !hello ? "nothing" : !devices.size ? "empty" : chosen ? `device ${chosen} ${devices.get(chosen)!.shape}` : "all";
+    if (hello?.films && this.source.live) return location.replace(`?view${location.hash}`); // a server of `poise view`
+    const device = chosen === null ? undefined : devices.get(chosen);
+    const key = !hello ? "nothing" : !devices.size ? "empty" : device ? `device ${chosen} ${device.shape} ${device.segment}/${device.base}` : "all";
     if (key !== this.key) {
       this.key = key;
       this.shown?.destroy();
@@ -78,7 +85,7 @@ class Page {
       main.className = key.split(" ")[0];
       if (key === "nothing") main.replaceChildren();
       else if (key === "empty") main.replaceChildren(empty());
-      else if (chosen) this.shown = new Detail(this.store, this.playhead, this.stage, this.source, devices.get(chosen)!);
+      else if (device) this.shown = new Detail(this.store, this.playhead, this.stage, this.source, device);
       else this.shown = new Grid(this.store, this.playhead, this.stage);
       if (this.shown) main.replaceChildren(this.shown.element);
       if (this.shown instanceof Grid && this.source.live) main.append((this.all = new Events(this.store, null)).element);
@@ -131,9 +138,19 @@ function empty(): HTMLElement {
     h("p", {}, "A device appears here with its first sample. It pushes to"),
     h("p", {}, h("code", {}, address)),
     h("p", {}, "or is named when the server is started:"),
-    h("p", {}, h("code", {}, "poise live serial:/dev/ttyUSB0"), h("code", {}, "poise live udp::9000"), h("code", {}, "poise live replay:walk.csv")),
+    h("p", {}, h("code", {}, "poise live serial:/dev/ttyUSB0"), h("code", {}, "poise live udp::9000"), h("code", {}, "poise live replay:walk.csv"), h("code", {}, "poise live sim:balance")),
   );
 }
 
+/** The device that an address names; the address may be anything. */
+function deviceOf(hash: string): string {
+  if (!hash.startsWith("#/")) return "";
+  try {
+    return decodeURIComponent(hash.slice(2));
+  } catch {
+    return "";
+  }
+}
+
 tokenFromAddress();
-new Page(location.search === "?view" ? new FilmSource() : new SocketSource());
+new Page(new URLSearchParams(location.search).has("view") ? new FilmSource() : new SocketSource());

@@ -31,7 +31,9 @@ export class Methods {
   sync(): void {
     const device = this.store.devices.get(this.id);
     const { hello } = this.store;
-    const key = JSON.stringify([device?.methods, hello?.may_write, this.store.tracksOf(this.id).map((t) => t.colour)]);
+    // what zero means is not shown here; written anew, fields would lose what is being typed
+    const running = device?.methods.map(({ number, name, settings }) => [number, name, settings]);
+    const key = JSON.stringify([running, hello?.may_write, this.store.tracksOf(this.id).map((t) => t.colour)]);
     if (key === this.shown || !device || !hello) return;
     this.shown = key;
     const focus = document.activeElement?.id;
@@ -58,7 +60,7 @@ export class Methods {
     const details = h(
       "details",
       { open: this.open.has(method.name) },
-      h("summary", {}, `Parameters${changed ? ` (${changed} changed)` : ""}`),
+      h("summary", {}, `Parameters${changed ? ` (${changed} changed)` : ""}`, k === 0 && device.methods.length > 1 ? h("span", { class: "first" }, "drawn solid") : null),
       kind ? this.parameters(kind, settings, k, may) : null,
     );
     details.addEventListener("toggle", () => this.open[details.open ? "add" : "delete"](method.name));
@@ -70,7 +72,6 @@ export class Methods {
         { class: "line" },
         key,
         replace,
-        k === 0 ? h("span", { class: "first" }, "drawn solid") : null,
         device.methods.length > 1 && may ? h("button", { class: "quiet", "aria-label": `Stop ${method.name}`, title: "Stop this method", onclick: () => void this.ask(this.wanted.filter((_, n) => n !== k)) }, "×") : null,
       ),
       details,

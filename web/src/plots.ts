@@ -2,11 +2,13 @@
 
 import uPlot from "uplot";
 import { Chart, CHART_AXIS } from "./chart";
-import type { Line } from "./chart";
+import type { ChartSpec, Line } from "./chart";
 import { windowed } from "./curves";
-import type { Lane } from "./curves";
+import type { Lane, Quantity } from "./curves";
 import { h, say } from "./dom";
 import type { Playhead } from "./playhead";
+import { AT } from "./protocol";
+import type { DeviceInfo } from "./protocol";
 import type { Store } from "./store";
 
 const XYZ: Line[] = [
@@ -14,11 +16,32 @@ const XYZ: Line[] = [
   { label: "y", colour: "--y" },
   { label: "z", colour: "--z" },
 ];
-const MOST_STRETCHES = 80;
+type Spec = Omit<ChartSpec, "lines" | "bands">;
+
+const angle = (title: string, more: Partial<Spec> = {}): Spec => ({ title, unit: "°", digits: 1, least: 10, ...more });
+const HALF: [number, number] = [-180, 180];
+const RATE: Spec = { title: "Rate", unit: "rad/s", digits: 2, least: 0.5 };
+
+/** What is plotted of a device. */
+const EARTH = {
+  angles: { heading: angle("Heading", { turn: [0, 360] }), pitch: angle("Pitch"), roll: angle("Roll", { turn: HALF, foot: true }) },
+  sensors: [
+    [AT.gyr, RATE],
+    [AT.acc, { title: "Specific force", unit: "m/s²", digits: 2, least: 2 }],
+    [AT.mag, { title: "Magnetic field", unit: "µT", digits: 1, least: 10, foot: true }],
+  ] as [number, Spec][],
+};
+/** And of a joint, which is seen from its base and has no sensors. */
+const JOINT = {
+  angles: { angle: angle("Angle"), turn: angle("Turn", { turn: HALF }), pitch: angle("Pitch"), roll: angle("Roll", { turn: HALF, foot: true }) },
+  sensors: [[AT.rate, { ...RATE, foot: true }]] as [number, Spec][],
+};
+const FINEST = 1 / 400; // of a lane's width, between two stretches: what is closer is drawn as one
 
 export class Plots {
   readonly element = h("div", { class: "plots" });
-  private charts: Record<"heading" | "pitch" | "roll" | "gyr" | "acc" | "mag", Chart> | null = null;
+  private charts = new Map<Quantity | number, Chart>();
+  private kinds: { angles: Partial<Record<Quantity, Spec>>; sensors: [number, Spec][] };
   private lanes = h("div", { class: "lanes" });
   private rows = new Map<number, { row: HTMLElement; bar: HTMLElement; key: string }>();
   private shown = "";
@@ -28,7 +51,9 @@ export class Plots {
   private scheme = matchMedia("(prefers-color-scheme: dark)");
   private recolour = () => this.each((chart) => chart.recolour());
 
-  constructor(private store: Store, private playhead: Playhead, private id: string) {
+  constructor(private store: Store, private playhead: Playhead, private device: DeviceInfo) {
+    const { angles, sensors } = device.shape === "joint" ? JOINT : EARTH;
+    this.kinds = { angles, sensors: device.sensors === false ? JOINT.sensors : sensors };
     this.observer.observe(this.element);
     this.scheme.addEventListener("change", this.recolour);
     this.lanes.style.setProperty("--axis", `${CHART_AXIS}px`);
@@ -41,7 +66,7 @@ export class Plots {
   }
 
   private each(work: (chart: Chart) => void): void {
-    if (this.charts) for (const chart of Object.values(this.charts)) work(chart);
+    for (const chart of this.charts.values()) work(chart);
   }
 
   /** Long windows are drawn less often: a pixel of them is many rows. */
@@ -51,11 +76,12 @@ export class Plots {
     if (now - this.drawn < pause || (this.version === this.store.version && !this.playhead.following)) return;
     this.drawn = now;
     this.version = this.store.version;
-    const tracks = this.store.tracksOf(this.id).filter((track) => track.ring.length);
+    const tracks = this.store.tracksOf(this.device.id).filter((track) => track.ring.length);
     this.build(tracks.map(({ method, colour, running }) => ({ label: method.name + (running ? "" : " (before)"), colour: `--m${colour}`, dashed: !running })));
     const mark = this.store.instant && this.playhead.time;
-    const { stretches, lanes, ...data } = windowed(this.store, tracks, ...range);
-    for (const [name, chart] of Object.entries(this.charts!)) chart.set(data[name as keyof typeof data], range, stretches, mark);
+    const quantities = Object.keys(this.kinds.angles) as Quantity[];
+    const { stretches, lanes, data } = windowed(this.store, tracks, ...range, quantities, this.kinds.sensors.map(([field]) => field));
+    for (const [name, chart] of this.charts) chart.set(data.get(name)!, range, stretches, mark);
     this.drawLanes(lanes, range);
   }
 
@@ -64,21 +90,11 @@ export class Plots {
     if (key === this.shown) return;
     this.shown = key;
     this.each((chart) => chart.destroy());
-    const sync = uPlot.sync(`device ${this.id}`);
-    const angle = { unit: "°", digits: 1, lines, bands: true };
-    this.charts = {
-      heading: new Chart({ title: "Heading", least: 10, compass: true, ...angle }, sync),
-      pitch: new Chart({ title: "Pitch", least: 10, ...angle }, sync),
-      roll: new Chart({ title: "Roll", least: 10, foot: true, ...angle }, sync),
-      gyr: new Chart({ title: "Rate", unit: "rad/s", digits: 2, least: 0.5, lines: XYZ, bands: false }, sync),
-      acc: new Chart({ title: "Specific force", unit: "m/s²", digits: 2, least: 2, lines: XYZ, bands: false }, sync),
-      mag: new Chart({ title: "Magnetic field", foot: true, unit: "µT", digits: 1, least: 10, lines: XYZ, bands: false }, sync),
-    };
-    this.element.replaceChildren(
-      ...Object.values(this.charts).slice(0, 3).map((chart) => chart.element),
-      this.lanes,
-      ...Object.values(this.charts).slice(3).map((chart) => chart.element),
-    );
+    const sync = uPlot.sync(`device ${this.device.id}`);
+    const angles = Object.entries(this.kinds.angles).map(([name, spec]) => [name as Quantity, new Chart({ ...spec, lines, bands: true }, sync)] as const);
+    const sensors = this.kinds.sensors.map(([field, spec]) => [field, new Chart({ ...spec, lines: XYZ, bands: false }, sync)] as const);
+    this.charts = new Map<Quantity | number, Chart>([...angles, ...sensors]);
+    this.element.replaceChildren(...angles.map(([, chart]) => chart.element), this.lanes, ...sensors.map(([, chart]) => chart.element));
     this.each((chart) => chart.fit());
   }
 
@@ -100,7 +116,7 @@ export class Plots {
         this.rows.set(bit, entry);
         this.lanes.append(row);
       }
-      const bars = stretches.slice(-MOST_STRETCHES);
+      const bars = joined(stretches, from, FINEST * (to - from));
       while (entry.bar.childElementCount > bars.length) entry.bar.lastElementChild!.remove();
       while (entry.bar.childElementCount < bars.length) entry.bar.append(h("i"));
       bars.forEach(([begin, end], k) => {
@@ -119,4 +135,16 @@ export class Plots {
       else say(empty, "No flags in this window");
     }
   }
+}
+
+/** *stretches* that end after *from*, as one where less than *least* is between them. */
+function joined(stretches: [number, number][], from: number, least: number): [number, number][] {
+  const found: [number, number][] = [];
+  for (const [begin, end] of stretches) {
+    if (end < from) continue;
+    const last = found.at(-1);
+    if (last && begin - last[1] < least) last[1] = Math.max(last[1], end);
+    else found.push([begin, end]);
+  }
+  return found;
 }

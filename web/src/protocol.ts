@@ -32,6 +32,8 @@ export interface Hello {
   invalid_flags: number;
   offers: string[];
   events?: LiveEvent[];
+  /** how many recordings `poise view` shows */
+  films?: number;
   recording: Recording | null;
 }
 
@@ -51,6 +53,11 @@ export interface DeviceInfo {
   shape: Shape;
   connected: boolean;
   methods: RunningMethod[];
+  /** of a joint: the device that is seen from the device `base` */
+  segment?: string;
+  base?: string;
+  /** of a recording: whether its samples are there, and not its attitude alone */
+  sensors?: boolean;
 }
 
 export interface DeviceHealth {

@@ -1,9 +1,11 @@
 // The numbers of one device at the instant shown: heading, tilt, whether they may be acted on, and why not.
 
 import { angles, fixed } from "./attitude";
+import type { Angles } from "./attitude";
 import { h, say } from "./dom";
 import type { Playhead } from "./playhead";
 import { ALARMING } from "./protocol";
+import type { DeviceInfo } from "./protocol";
 import type { Store, Track } from "./store";
 import { tipWord, ZERO } from "./words";
 
@@ -26,8 +28,10 @@ class Number_ {
 
 export class Readout {
   readonly element: HTMLElement;
-  private heading = new Number_("Heading");
-  private tilt = new Number_("Tilt");
+  private first: Number_;
+  private second: Number_;
+  /** of a joint: about the base's z, x and y */
+  private about: HTMLElement[] | null;
   private verdict = h("p", { class: "verdict" });
   private why = h("p", { class: "why" });
   private tip = h("p", { class: "tip" });
@@ -35,8 +39,12 @@ export class Readout {
   private spoken = h("p", { class: "unseen", role: "status", "aria-live": "polite" });
   private written = 0;
 
-  constructor(private store: Store, private playhead: Playhead, private id: string) {
-    this.element = h("div", { class: "readouts" }, h("div", { class: "pair" }, this.heading.element, this.tilt.element), h("div", { class: "state" }, this.verdict, this.tip, this.why), this.others, this.spoken);
+  constructor(private store: Store, private playhead: Playhead, private device: DeviceInfo) {
+    const joint = device.shape === "joint";
+    [this.first, this.second] = [new Number_(joint ? "Angle" : "Heading"), new Number_("Tilt")];
+    this.about = joint ? ["Turn", "Pitch", "Roll"].map(() => h("dd")) : null;
+    const beside = this.about ? h("dl", { class: "facts" }, ...["Turn", "Pitch", "Roll"].map((name, k) => h("div", {}, h("dt", {}, name), this.about![k]))) : this.second.element;
+    this.element = h("div", { class: "readouts" }, h("div", { class: "pair" }, this.first.element, beside), h("div", { class: "state" }, this.verdict, this.tip, this.why), this.others, this.spoken);
   }
 
   private row(track: Track): number {
@@ -46,23 +54,34 @@ export class Readout {
   update(now: number): { invalid: string; tip: number | null } | null {
     if (now - this.written < 100) return null;
     this.written = now;
-    const tracks = this.store.tracksOf(this.id).filter((track) => track.running);
+    const tracks = this.store.tracksOf(this.device.id).filter((track) => track.running);
     const [main] = tracks;
     const k = main ? this.row(main) : -1;
     const invalid = !main ? "its method is being loaded" : this.playhead.following ? this.store.whyInvalid(main, k) : this.whyThen(main, k);
     const a = main && k >= 0 ? angles(main.ring, k) : null;
-    this.heading.set(a?.heading ?? NaN, a?.sigmaHeading ?? NaN, main ? ZERO[main.method.heading] : "");
-    this.tilt.set(a?.tilt ?? NaN, a?.sigmaTilt ?? NaN, "between its z axis and up");
+    this.figures(a, main);
     say(this.verdict, invalid ? "Not valid" : "Valid");
     say(this.why, invalid);
-    say(this.spoken, invalid ? `${this.id}: attitude not valid: ${invalid}` : `${this.id}: attitude valid`);
+    say(this.spoken, `${this.device.id}: attitude ${invalid ? `not valid: ${invalid}` : "valid"}`);
     const tip = main && k >= 0 ? main.ring.tip(k) : 255;
     const watched = tip !== 255;
     say(this.tip, watched ? tipWord(tip) : "");
     this.tip.classList.toggle("bad", ALARMING.has(tip));
     this.element.classList.toggle("invalid", invalid !== "");
-    this.compare(tracks.slice(1), a?.heading ?? NaN);
+    this.compare(tracks.slice(1));
     return { invalid, tip: watched ? tip : null };
+  }
+
+  private figures(a: Angles | null, main: Track | undefined): void {
+    if (this.about) {
+      const { segment, base } = this.device;
+      this.first.set(a?.angle ?? NaN, a?.sigmaAngle ?? NaN, segment && base ? `of ${segment}, seen from ${base}` : "seen from another body");
+      const values = a ? [a.turn, a.pitch, a.roll] : [NaN, NaN, NaN];
+      this.about.forEach((value, k) => say(value, `${fixed(values[k], 1)}°`));
+      return;
+    }
+    this.first.set(a?.heading ?? NaN, a?.sigmaHeading ?? NaN, main ? ZERO[main.method.heading] : "");
+    this.second.set(a?.tilt ?? NaN, a?.sigmaTilt ?? NaN, "between its z axis and up");
   }
 
   private whyThen(main: Track, k: number): string {
@@ -72,7 +91,7 @@ export class Readout {
   }
 
   /** Other methods beside the first: their figures, small, in their colours. */
-  private compare(tracks: Track[], _main: number): void {
+  private compare(tracks: Track[]): void {
     while (this.others.childElementCount > tracks.length) this.others.lastElementChild!.remove();
     while (this.others.childElementCount < tracks.length) this.others.append(h("p", {}, h("i", { class: "key" }), h("span"), h("b")));
     tracks.forEach((track, n) => {
@@ -81,7 +100,8 @@ export class Readout {
       const a = k >= 0 ? angles(track.ring, k) : null;
       key.style.setProperty("--key", `var(--m${track.colour})`);
       say(name, track.method.name);
-      say(value, a ? `${fixed(a.heading, 1)}°  ·  ${fixed(a.tilt, 1)}°${track.ring.valid(k) ? "" : "  not valid"}` : "–");
+      const [first, second] = a ? (this.about ? [a.angle, a.turn] : [a.heading, a.tilt]) : [NaN, NaN];
+      say(value, a ? `${fixed(first, 1)}°  ·  ${fixed(second, 1)}°${track.ring.valid(k) ? "" : "  not valid"}` : "–");
     });
   }
 }

@@ -8,6 +8,9 @@ import { looks } from "./shapes";
 const GROUND = -1.35;
 const RADIUS = 1.9;
 const WEDGE = 24;
+type Sign = readonly [string, number, number];
+const EARTH: Sign[] = [["N", 0, 1], ["E", 1, 0], ["S", 0, -1], ["W", -1, 0]];
+const BASE: Sign[] = [["y", 0, 1], ["x", 1, 0]];
 
 /** Materials of a theme, shared by all scenes. */
 class Paint {
@@ -174,8 +177,10 @@ export class Scene {
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8890a0, 1.7), sun);
     const ground = new THREE.Group();
     ground.position.z = GROUND;
-    ground.add(new THREE.LineSegments(shared.rose, paint.grid), new THREE.Mesh(shared.north, paint.north));
-    for (const [text, x, y] of [["N", 0, 1], ["E", 1, 0], ["S", 0, -1], ["W", -1, 0]] as const) {
+    ground.add(new THREE.LineSegments(shared.rose, paint.grid));
+    const joint = shape === "joint"; // seen from its base: there is no north
+    if (!joint) ground.add(new THREE.Mesh(shared.north, paint.north));
+    for (const [text, x, y] of joint ? BASE : EARTH) {
       if (!rich && text !== "N") continue;
       const sign = new THREE.Sprite(paint.sign(text));
       sign.position.set(x * (RADIUS + 0.3), y * (RADIUS + 0.3), 0);

@@ -6,15 +6,18 @@ import type { Sink, Source } from "./source";
 const KEY = "poise.token";
 const FIRST_WAIT = 0.5;
 const LONGEST_WAIT = 5;
+/** As the server takes them: others could not even be sent. */
+const TOKEN = /^[A-Za-z0-9._~-]+$/;
 /** s without a message after which the connection is taken for dead: the server tells its health once a second. */
 const DEAF = 6;
 
 /** The token of `#token=…`, taken out of the address at once so that it is in no bookmark. */
-export function tokenFromAddress(): void {
+export function tokenFromAddress(): string | null {
   const found = /^#token=([A-Za-z0-9._~-]+)/.exec(location.hash);
-  if (!found) return;
+  if (!found) return null;
   sessionStorage.setItem(KEY, found[1]);
   history.replaceState(null, "", location.pathname + location.search);
+  return found[1];
 }
 
 /** GET of the page's own server, with the token where there is one. */
@@ -31,6 +34,7 @@ export class SocketSource implements Source {
   private lostAt = 0;
   private heard = 0;
   private asked = 0;
+  private retry = 0;
   private pending = new Map<string, { resolve: () => void; reject: (reason: Error) => void }>();
 
   start(sink: Sink): void {
@@ -40,6 +44,7 @@ export class SocketSource implements Source {
   }
 
   identify(token: string): void {
+    if (!TOKEN.test(token)) return this.sink.connection({ state: "refused", reason: "A token has letters, digits and . _ ~ - only." });
     sessionStorage.setItem(KEY, token);
     this.connect();
   }
@@ -58,6 +63,8 @@ export class SocketSource implements Source {
   }
 
   private connect(): void {
+    clearTimeout(this.retry);
+    this.leave();
     this.sink.connection({ state: "connecting" });
     const token = sessionStorage.getItem(KEY);
     const address = location.origin.replace(/^http/, "ws") + "/ws/view";
@@ -73,18 +80,26 @@ export class SocketSource implements Source {
       this.sink.connection({ state: "open" });
     };
     socket.onmessage = ({ data }) => {
+      if (this.socket !== socket) return;
       this.heard = performance.now();
       if (data instanceof ArrayBuffer) this.sink.frame(data);
       else this.hear(JSON.parse(data as string) as Message);
     };
     socket.onclose = () => {
       if (this.socket !== socket) return;
-      this.socket = null;
-      for (const { reject } of this.pending.values()) reject(new Error("the connection was lost"));
-      this.pending.clear();
+      this.leave();
       if (opened) this.again();
       else void this.why();
     };
+  }
+
+  /** The socket, if any, is no longer listened to, and what was asked of it is not answered. */
+  private leave(): void {
+    const socket = this.socket;
+    this.socket = null;
+    socket?.close();
+    for (const { reject } of this.pending.values()) reject(new Error("the connection was lost"));
+    this.pending.clear();
   }
 
   private hear(message: Message): void {
@@ -104,7 +119,7 @@ export class SocketSource implements Source {
       if (answer.status === 401) {
         const had = sessionStorage.getItem(KEY) !== null;
         sessionStorage.removeItem(KEY);
-        return this.sink.connection({ state: "refused", reason: had ? "That token is not one of this server." : "" });
+        return this.sink.connection({ state: "refused", reason: had ? "That token is not one of this server, or it may not look: the scope “read” is needed." : "" });
       }
     } catch {
       // not there: tried again below
@@ -115,15 +130,13 @@ export class SocketSource implements Source {
   private again(): void {
     this.lostAt ||= Date.now();
     this.sink.connection({ state: "lost", since: this.lostAt, retryAt: Date.now() + 1000 * this.wait });
-    setTimeout(() => this.connect(), 1000 * this.wait);
+    this.retry = setTimeout(() => this.connect(), 1000 * this.wait);
     this.wait = Math.min(LONGEST_WAIT, 1.6 * this.wait);
   }
 
   private listen(): void {
-    const socket = this.socket;
-    if (socket?.readyState === WebSocket.OPEN && performance.now() - this.heard > 1000 * DEAF) {
-      this.socket = null;
-      socket.close();
+    if (this.socket?.readyState === WebSocket.OPEN && performance.now() - this.heard > 1000 * DEAF) {
+      this.leave();
       this.again();
     }
   }

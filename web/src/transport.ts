@@ -7,9 +7,11 @@ import type { Store } from "./store";
 
 const WINDOWS: [number, string][] = [[10, "10 s"], [30, "30 s"], [120, "2 min"], [KEPT, "5 min"]];
 
+const STEP = 0.05; // s
+
 export class Transport {
   private pause = h("button", { class: "play", id: "pause", onclick: () => this.playhead.toggle() }, "Pause");
-  private slider = h("input", { type: "range", id: "scrub", "aria-label": "Instant shown, seconds before now", max: 0, step: 0.05, value: 0 });
+  private slider = h("input", { type: "range", id: "scrub", "aria-label": "Instant shown, seconds before now", max: 0, step: STEP, value: 0 });
   private label = h("output", { for: "scrub", id: "instant" });
   private written = 0;
   private dragged = false; // else what is shown moves into the past, and the thumb with it
@@ -46,7 +48,8 @@ export class Transport {
     const edge = this.store.edge();
     const back = this.playhead.following ? 0 : Math.min(0, this.playhead.time - edge);
     const oldest = this.store.oldest();
-    this.slider.min = String(Math.min(-1, Math.max(-KEPT - 60, Number.isFinite(oldest) ? oldest - edge : -1)));
+    const longest = Math.max(1, Math.min(KEPT + 60, Number.isFinite(oldest) ? edge - oldest : 1));
+    this.slider.min = (-Math.ceil(longest / STEP) * STEP).toFixed(2); // of whole steps, or now would be none
     if (!this.dragged) this.slider.value = String(back);
     const text = this.playhead.following ? "now" : `${back.toFixed(1).replace("-", "−")} s`;
     say(this.label, text);

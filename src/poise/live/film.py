@@ -80,7 +80,7 @@ class Film:
             "number": number,
             "id": self.name,
             "source": self.source,
-            "shape": "board",
+            "shape": "joint" if self.strips[0].attitude.frame == "body" else "board",
             "start": self.start,
             "end": self.end,
             "rows": len(time),

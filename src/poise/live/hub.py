@@ -71,7 +71,7 @@ class Hub:
         """The device *name*, made at its first mention. Raises :class:`HubError` for a name that cannot be, or one too many."""
         found = self.devices.get(name)
         if found is None:
-            _check_name("device", name)
+            check_name("device", name)
             if name in self.joints.all:
                 raise HubError(f"device {name!r}: there is a joint of that name")
             if len(self.devices) >= MOST_DEVICES:
@@ -116,7 +116,7 @@ class Hub:
         Raises :class:`HubError` or :class:`JointError` for one that cannot be.
         """
         for kind, each in (("joint", name), ("segment", segment), ("base", base)):
-            _check_name(kind, each)
+            check_name(kind, each)
         self.joints.check(name, segment, base)
         self.joints.add(name, self._number(), segment, base)
         self.event("joint", None, f"joint {name}: {segment} seen from {base}")
@@ -339,8 +339,8 @@ class Hub:
         )
 
 
-def _check_name(kind: str, name: str) -> None:
-    """Refuses a name that cannot be that of files, beside the `NAME.METHOD.attitude.parquet` of others."""
+def check_name(kind: str, name: str) -> None:
+    """Raises :class:`HubError` for a name that cannot be that of files, beside the `NAME.METHOD.attitude.parquet` of others."""
     letters = 0 < len(name) <= 64 and all(c.isalnum() or c in "-_.:" for c in name)
     if not letters or len(name.encode()) > _NAME_BYTES or name.startswith(".") or name.endswith(".attitude"):
         raise HubError(f"{kind} {name[:80]!r}: expected 1 to 64 letters, digits, - _ . or :")

@@ -20,6 +20,7 @@ _MOST_HELD = 30.0  # s of samples that wait until the axes are known
 _MOST_SAMPLES_HELD = 20_000  # whatever their stamps say
 _REMEMBERED = 2000  # orientations, for the attitude of the same sample
 _APART, _TOGETHER = 30.0, 20.0  # deg of tilt between the browser's orientation and ours
+_SHAPES = tuple(shape for shape in get_args(Shape) if shape != "joint")  # which is between two devices, and none itself
 _APART_FOR = 3.0  # s until that is told
 
 
@@ -27,8 +28,8 @@ def asked(query: bytes) -> tuple[Shape | None, Axes | None]:
     """What the query of ``/ws/device/NAME`` says: ``shape`` and ``axes``. Raises :class:`DeviceError`."""
     found = {name: values[-1] for name, values in parse_qs(query.decode("latin-1")).items()}
     shape, axes = found.get("shape"), found.get("axes")
-    if shape is not None and shape not in get_args(Shape):
-        raise DeviceError(f"shape {shape[:40]!r}: expected one of {', '.join(get_args(Shape))}")
+    if shape is not None and shape not in _SHAPES:
+        raise DeviceError(f"shape {shape[:40]!r}: expected one of {', '.join(_SHAPES)}")
     try:
         return shape, Axes.parse(axes) if axes else None  # type: ignore[return-value]
     except ValueError as problem:

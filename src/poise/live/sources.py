@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from itertools import count
 from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -59,14 +60,35 @@ def source(word: str, read: Callable[[Path], Recording], description: Descriptio
 
 
 def apart(sources: list[Source]) -> list[Source]:
-    """*sources*, where no two of them would send as one simulated device; else raises :class:`DeviceError`."""
+    """*sources*, where no two of them would send as one device: replays of one name are numbered.
+
+    Raises :class:`DeviceError` for simulated devices of one name, or of a name that cannot be.
+    """
+    from poise.live.hub import HubError, check_name
+    from poise.live.replay import Replay
+
     taken: set[str] = set()
     for each in sources:
         names: tuple[str, ...] = getattr(each, "devices", ())
+        try:
+            for name in names:
+                check_name("device", name)
+        except HubError as problem:
+            raise DeviceError(f"{each.name}: {problem}") from None
         if both := taken.intersection(names):
             raise DeviceError(f"{min(both)}: two sources send as this device; give one a name: sim:WORLD?name=NAME")
         taken.update(names)
+    for each in sources:
+        if isinstance(each, Replay):
+            each.device = next(name for name in _numbered(each.device) if name not in taken)
+            taken.add(each.device)
     return sources
+
+
+def _numbered(name: str) -> Iterator[str]:
+    yield name
+    for number in count(2):
+        yield f"{name[: 63 - len(str(number))]}-{number}"
 
 
 def _speed(text: str) -> tuple[str, float]:
@@ -75,7 +97,10 @@ def _speed(text: str) -> tuple[str, float]:
         return text, 1.0
     if found[2] == "max":
         return found[1], inf
-    speed = float(found[2].rstrip("x"))
+    try:
+        speed = float(found[2].rstrip("x"))
+    except ValueError:
+        speed = 0.0
     if not 0.01 <= speed <= 1e6:
         raise DeviceError(f"@{found[2]}: expected a speed from 0.01 to 1e6, or max")
     return found[1], speed

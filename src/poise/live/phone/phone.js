@@ -16,7 +16,8 @@ function token() {
     sessionStorage.setItem("poise-token", found);
     history.replaceState(null, "", location.pathname); // so that it is not seen, shared or bookmarked
   }
-  return found || sessionStorage.getItem("poise-token") || "";
+  const dashboards = sessionStorage.getItem("poise.token"); // of this tab, where the dashboard led here
+  return found || sessionStorage.getItem("poise-token") || dashboards || "";
 }
 
 function usualName() {
