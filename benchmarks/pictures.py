@@ -112,7 +112,7 @@ def live(page: Page) -> None:
     word = f"replay:{DATA / '05_undisturbed_slow_rotation_with_breaks_B.mat'}"
     with served(word, "-m", "self-calibrating", "-m", "two-stage") as address:
         page.goto(address)
-        until(page, "window.poise?.store.edge() - window.poise?.store.oldest() > 75")
+        until(page, "window.poise?.store.edge() - window.poise?.store.oldest() > 62")
         shoot(page, "live")
 
 

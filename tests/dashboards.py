@@ -76,8 +76,8 @@ class Sending(threading.Thread):
 
 
 @contextmanager
-def sending(live: Running, *names: str, samples: Any = turning) -> Iterator[Sending]:
-    source = Sending(live, names, samples)
+def sending(live: Running, *names: str, samples: Any = turning, first: int = 0) -> Iterator[Sending]:
+    source = Sending(live, names, samples, first)
     source.start()
     try:
         yield source

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+import poise
 from browsing import chromium
 from dashboards import RATE, TURN, Shown, falling, page_of, sending, turning
 from live_helpers import seen, serving, wait_for
@@ -128,11 +129,14 @@ def test_what_a_method_does_not_take_is_said(browser: Any) -> None:
 
 def test_pause_scrub_and_download(browser: Any, tmp_path: Path) -> None:
     with serving() as live, page_of(browser, live, accept_downloads=True) as shown:
-        with sending(live, "turntable") as source:
+        with sending(live, "turntable"):
             page = shown.open()
+            shown.waits_for("window.poise.drawn('turntable')?.sequence > 20")
+        page.locator(".lane", has_text="silent").wait_for()  # is a row, too
+        with sending(live, "turntable", first=live.hub.devices["turntable"].next) as source:
             shown.waits_for("window.poise.drawn('turntable')?.sequence > 300")
             page.get_by_role("button", name="Pause").click()
-            time.sleep(0.3)  # for the redraw
+            time.sleep(1.5)  # for the redraw, and what was on its way
             stopped = shown.drawn("turntable")
             before = source.sent
             wait_for(lambda: source.sent > before + 50)
@@ -157,8 +161,17 @@ def test_pause_scrub_and_download(browser: Any, tmp_path: Path) -> None:
         assert {row["device"] for row in rows} == {"turntable"}
         for row in rows[::10]:
             expected = turning(int(row["sequence"]), 1)[0]
-            found = [float(row[name]) for name in ("time", "gx", "gy", "gz", "ax", "ay", "az", "mx", "my", "mz")]
+            found = [float(value) for name, value in row.items() if name.endswith(")")]
             np.testing.assert_allclose(found, expected, rtol=1e-5, atol=1e-5)
+        recording, attitude = poise.read(tmp_path / "held.csv"), poise.read_attitude(tmp_path / "held.csv")
+        assert recording.time.tolist() == [float(row["time (s)"]) for row in rows] == attitude.time.tolist()
+        np.testing.assert_allclose(
+            recording.mag, turning(0, 10**4)[[int(row["sequence"]) for row in rows], 7:10], rtol=1e-5, atol=1e-5
+        )
+        np.testing.assert_allclose(attitude.quat[:, 0], [float(row["qw"]) for row in rows])
+        silent = [bool(int(row["flags"]) & poise.Flag.SILENT) for row in rows]
+        assert any(silent) and silent == ["SILENT" in row["flag_names"].split("|") for row in rows]
+        assert not any(int(row["valid"]) for row in rows if "SILENT" in row["flag_names"])
         shown.must_be_clean()
 
 

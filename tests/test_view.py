@@ -139,6 +139,7 @@ def test_the_command_serves_methods_reference_and_monitor(tmp_path: Path) -> Non
         (["walk.csv", "-m", "nothing"], 2, "no method 'nothing'"),
         (["walk.csv", "--port", "70000"], 2, "--port"),
         (["walk.csv", "walk.csv"], 2, "twice"),
+        (["walk.csv", "--port", "0", "other.csv"], 2, "'other.csv' is one too many; what has no name stands together"),
         (["walk.csv", "-m", METHOD, "--offline"], 2, "--offline"),
         (["walk.csv", "--tipover", "absent.toml"], 1, "absent.toml"),
     ],

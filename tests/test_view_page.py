@@ -136,6 +136,41 @@ COLUMNS = """plot => {
 }"""
 
 
+@pytest.mark.parametrize(("axis", "about", "plot"), [(2, 0.0, 0), (1, np.pi, 2)], ids=["north", "upside down"])
+def test_an_angle_that_stays_beside_its_end_is_one_line(browser: Any, axis: int, about: float, plot: int) -> None:
+    time = np.arange(0.0, 60.0, 0.02)
+    half = (about + 0.1 * np.sin(9.0 * time) + 0.1 * np.sin(0.5 * time)) / 2.0
+    quat = np.zeros((len(time), 4))
+    quat[:, 0], quat[:, 1 + axis] = np.cos(half), np.sin(half)
+    shown = of_attitude("steady", poise.Attitude.of(time, quat))
+    with serving(films=[shown]) as running, page_of(browser, f"http://{running.address}/?view") as page:
+        until(page, "poise.store.edge() > 1")
+        line = columns(page, plot)
+        assert np.mean(line > 0.0) > 0.99
+        assert np.median(line) < 0.7
+        page.evaluate("poise.playhead.seek(9)")  # where it is less than 360° or 180°
+        said = page.locator(".chart").nth(plot).locator("b")
+        until(page, "poise.store.version === poise.painted()")
+        page.wait_for_timeout(300)
+        k = int(np.searchsorted(time, 9.0))
+        sign = -1.0 if axis == 2 else 1.0  # a heading is clockwise
+        wanted = float(np.degrees(sign * 2.0 * half[k]))
+        wanted = wanted % 360.0 if axis == 2 else (wanted + 180.0) % 360.0 - 180.0
+        assert float(said.inner_text().replace("−", "-")) == pytest.approx(wanted, abs=1.0)
+
+
+def test_an_alarm_moves_the_bodies_with_the_page(browser: Any) -> None:
+    time = np.arange(0.0, 10.0, 0.02)
+    tip = np.where(time > 5.0, 4, 1).astype(np.uint8)
+    shown = of_attitude("robot", poise.Attitude.of(time, np.tile([1.0, 0.0, 0.0, 0.0], (len(time), 1))), tip)
+    with serving(films=[shown]) as running, page_of(browser, f"http://{running.address}/?view") as page:
+        until(page, "poise.store.edge() > 1")
+        place = "[...document.querySelectorAll('#stage, .card .body')].map((e) => e.getBoundingClientRect().top)"
+        page.evaluate("poise.playhead.seek(6)")
+        page.locator("#alarm", has_text="Fallen").wait_for()
+        until(page, f"(([body, canvas]) => body > 100 && Math.abs(body - canvas) < 1.5)({place})")
+
+
 def columns(page: Any, plot: int) -> np.ndarray[Any, Any]:
     """How much of each column of *plot* its line covers, as the picture stands once it stays the same."""
     found: list[Any] = []

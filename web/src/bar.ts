@@ -22,11 +22,12 @@ export class Bar {
     const { link, hello, devices, health } = this.store;
     const chosen = this.chosen();
     const many = devices.size > 1;
+    const all = `${devices.size} ${this.store.instant ? "recordings" : "devices"}`;
     const key = `${chosen} ${devices.size}`;
     if (key !== this.shown) {
       this.shown = key;
       this.crumb.replaceChildren(
-        ...(many ? [chosen ? h("a", { class: "back", href: "#/", "aria-label": `${devices.size} devices` }, h("span", { class: "wide" }, `${devices.size} devices`)) : h("span", {}, `${devices.size} devices`)] : []),
+        ...(many ? [chosen ? h("a", { class: "back", href: "#/", "aria-label": all }, h("span", { class: "wide" }, all)) : h("span", {}, all)] : []),
         ...(chosen ? [h("h1", {}, chosen)] : []),
       );
       document.title = chosen ? `${chosen} – poise` : "poise";
@@ -37,7 +38,7 @@ export class Bar {
     this.state.dataset.state = link.state;
     this.state.title = hello?.server ?? "";
     const condition = health?.recording ?? hello?.recording ?? null;
-    say(this.recording, condition ? (condition.reason ? "Not recording" : "Recording") : "");
+    say(this.recording, condition && link.state === "open" ? (condition.reason ? "Not recording" : "Recording") : "");
     this.recording.classList.toggle("bad", Boolean(condition?.reason));
     this.recording.title = condition?.reason ?? "";
     this.phone.hidden = !hello?.offers?.includes("/phone");

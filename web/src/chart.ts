@@ -26,11 +26,13 @@ export interface ChartSpec {
   lines: Line[];
   /** a band around each line: two more series a line, upper and lower */
   bands: boolean;
-  /** an angle that goes on at its other end: all of it once most of it is used, and broken where it passes the end */
-  turn?: [number, number];
+  /** an angle that goes on at its other end; all of it is shown once most of it is used */
+  turn?: Turn;
   /** the last of its group, which has the times */
   foot?: boolean;
 }
+
+type Turn = [from: number, to: number];
 
 const AXIS = 46;
 
@@ -42,6 +44,8 @@ export class Chart {
   private stretches: Stretch[] = [];
   private range: [number, number] = [0, 1];
   private data: uPlot.AlignedData = [[]];
+  /** from where to where an angle that goes round is drawn: as its numbers are, or half a turn off */
+  private branch: Turn | undefined;
   /** the instant shown of a recording, whose time is counted from its start */
   private mark: number | null = null;
 
@@ -90,6 +94,7 @@ export class Chart {
   set(data: uPlot.AlignedData, range: [number, number], stretches: Stretch[], mark: number | null = null): void {
     this.mark = mark;
     this.data = data;
+    this.branch = this.spec.turn && branched(data, this.spec);
     this.range = range;
     this.stretches = stretches;
     this.plot?.setData(data);
@@ -103,7 +108,7 @@ export class Chart {
     const step = this.spec.bands ? 3 : 1;
     this.values.forEach((value, line) => {
       const found = (this.data[1 + line * step] as (number | null | undefined)[])?.[k];
-      say(value, fixed(found ?? NaN, this.spec.digits));
+      say(value, fixed(this.named(found ?? NaN), this.spec.digits));
     });
   }
 
@@ -131,14 +136,20 @@ export class Chart {
       cursor: { sync: { key: this.sync.key, setSeries: false, scales: ["x", null] }, drag: { x: false, y: false }, points: { size: 5 }, y: false },
       scales: {
         x: { time: this.mark === null, range: () => this.range },
-        y: { range: (_, low, high) => span(low, high, spec) },
+        y: { range: (_, low, high) => span(low, high, spec.least, this.branch) },
       },
       axes: [
         { stroke: ink, grid, ticks: { show: false }, size: spec.foot ? 22 : 4, font: FONT, values: (plot, splits) => (spec.foot ? this.times(plot, splits) : []), space: 70 },
-        { stroke: ink, grid, ticks: { show: false }, size: AXIS, gap: 4, font: FONT, space: 22, incrs: spec.unit === "°" ? ANGLES : undefined, values: (_, splits) => splits.map((v) => String(Number(v.toPrecision(6))).replace("-", "−")) },
+        { stroke: ink, grid, ticks: { show: false }, size: AXIS, gap: 4, font: FONT, space: 22, incrs: spec.unit === "°" ? ANGLES : undefined, values: (_, splits) => splits.map((v) => String(Number(this.named(v).toPrecision(6))).replace("-", "−")) },
       ],
       hooks: { drawClear: [(plot) => this.shade(plot)], draw: [(plot) => this.point(plot)], setCursor: [() => this.showValues()] },
     };
+  }
+
+  /** An angle by its usual name, wherever it is drawn: 350° and not −10°. */
+  private named(value: number): number {
+    const [from, to] = this.spec.turn ?? [-Infinity, Infinity];
+    return this.branch === this.spec.turn || (value >= from && value <= to) ? value : value + (value < from ? 360 : -360);
   }
 
   private times(plot: uPlot, splits: number[]): string[] {
@@ -198,6 +209,31 @@ function clock(plot: uPlot, splits: number[]): string[] {
   return splits.map((s) => (s > max! - room ? "" : CLOCK.format(1000 * s)));
 }
 
+/** Where to draw an angle that goes round, so that its lines pass the end least: *data* is moved there. */
+function branched(data: uPlot.AlignedData, { turn, lines }: ChartSpec): Turn {
+  const other: Turn = turn![0] === 0 ? [-180, 180] : [0, 360];
+  const moved = (value: number) => (value > other[1] ? value - 360 : value < other[0] ? value + 360 : value);
+  let passes = 0;
+  const values = lines.map((_, line) => data[1 + 3 * line] as (number | null)[]);
+  for (const column of values) {
+    let before: number | null = null;
+    for (const value of column) {
+      if (value === null) continue;
+      if (before !== null) passes += Number(Math.abs(value - before) > 180) - Number(Math.abs(moved(value) - moved(before)) > 180);
+      before = value;
+    }
+  }
+  if (passes <= 0) return turn!;
+  values.forEach((column, line) => {
+    const [upper, lower] = [2, 3].map((k) => data[k + 3 * line] as (number | null)[]);
+    column.forEach((value, k) => {
+      const by = value === null ? 0 : moved(value) - value;
+      if (by) for (const each of [column, upper, lower]) if (each[k] !== null) each[k]! += by;
+    });
+  });
+  return other;
+}
+
 const NEAR = 10; // px between two passes, below which both are drawn: gaps would leave nothing
 
 /** Gaps where an angle passes its end: a null between two points of one pixel would not be seen. */
@@ -224,7 +260,7 @@ function wraps(plot: uPlot, index: number, first: number, last: number, found: u
   return found.sort((a, b) => a[0] - b[0]);
 }
 
-function span(low: number | null, high: number | null, { least, turn }: ChartSpec): [number, number] {
+function span(low: number | null, high: number | null, least: number, turn: Turn | undefined): [number, number] {
   if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) return [-least / 2, least / 2];
   if (turn && high - low > 200) return turn;
   const middle = (low + high) / 2;

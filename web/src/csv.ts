@@ -3,7 +3,12 @@
 import { AT } from "./protocol";
 import type { Store } from "./store";
 
-const COLUMNS = "device,method,time,host_time,sequence,qw,qx,qy,qz,wx,wy,wz,sigma_east,sigma_north,sigma_up,gx,gy,gz,ax,ay,az,mx,my,mz,valid,tip,flags";
+const xyz = (name: string, unit = "") => ["x", "y", "z"].map((axis) => `${name}_${axis}${unit && ` (${unit})`}`);
+const COLUMNS = [
+  ...["device", "method", "time (s)", "host_time", "sequence", "qw", "qx", "qy", "qz"],
+  ...[...xyz("rate"), ...xyz("sigma"), ...xyz("gyr", "rad/s"), ...xyz("acc", "m/s²"), ...xyz("mag", "µT")],
+  ...["valid", "tip", "flags", "flag_names"],
+].join();
 const FLOATS = 19; // from the quaternion to the magnetometer
 
 /** Seconds, rad/s, m/s², µT, sigma in rad; the newest attitude 30 times a second, not every sample. */
@@ -15,7 +20,7 @@ export function csv(store: Store, ids: string[]): string {
         const fields: (string | number)[] = [id, method.name, ring.deviceTime(k), ring.hostTime(k).toFixed(6), ring.sequence(k)];
         for (let n = 0; n < FLOATS; n++) fields.push(short(ring.value(k, AT.quat + n)));
         const tip = ring.tip(k);
-        fields.push(Number(ring.valid(k)), tip === 255 ? "" : tip, store.sentences(ring.flags(k)).map((each) => each.name).join("|"));
+        fields.push(Number(ring.valid(k)), tip === 255 ? "" : tip, ring.flags(k), store.sentences(ring.flags(k)).map((each) => each.name).join("|"));
         lines.push(fields.join(","));
       }
     }

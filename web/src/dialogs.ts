@@ -50,17 +50,21 @@ export class TokenDialog {
 
 /** A code for the camera of a phone, where the server has such a page. */
 export class PhoneDialog {
+  private what = h("p");
   private image = h("div", { class: "qr" });
   private element: HTMLDialogElement;
 
   constructor(private source: Source) {
-    this.element = dialog("Use a phone", h("p", {}, "Point the phone’s camera at this. The page that it opens sends the phone’s motion here."), this.image, h("p", {}, h("a", { href: "/phone" }, "Open that page here")), closing(() => this.element));
+    this.element = dialog("Use a phone", this.what, this.image, h("p", {}, h("a", { href: "/phone" }, "Open that page here")), closing(() => this.element));
   }
 
   async open(): Promise<void> {
+    this.image.replaceChildren();
+    say(this.what, "");
     this.element.showModal();
     const answer = await this.source.get("/phone/qr.svg").catch(() => null);
-    if (!answer?.ok) return say(this.image, answer ? await reason(answer) : "The server cannot be reached.");
+    if (!answer?.ok) return say(this.what, !answer ? "The server cannot be reached." : answer.status === 401 ? "The code holds a token, which is shown to whoever has one with the scope “write”." : await reason(answer));
+    say(this.what, "Point the phone’s camera at this. The page that it opens sends the phone’s motion here.");
     const picture = h("img", { alt: "QR code of the page for phones", src: URL.createObjectURL(new Blob([await answer.text()], { type: "image/svg+xml" })) });
     this.image.replaceChildren(picture);
   }

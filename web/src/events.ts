@@ -28,7 +28,7 @@ export class Events {
     if (newest === this.newest) return;
     this.newest = newest;
     this.list.replaceChildren(...found.reverse().map(row));
-    if (!found.length) this.list.append(h("li", { class: "none" }, "Nothing yet"));
+    if (!found.length) this.list.append(h("li", { class: "none" }, "Nothing of late"));
   }
 }
 

@@ -41,6 +41,8 @@ export class Stage {
     const again = () => (this.dirty = true);
     addEventListener("resize", again);
     addEventListener("scroll", again, { passive: true, capture: true });
+    const moved = new ResizeObserver(again); // an alarm pushes all below it down
+    for (const id of ["bar", "alarm", "banner", "main", "transport"]) moved.observe(byId(id));
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
       paint.refresh();
       this.dirty = true;

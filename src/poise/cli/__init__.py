@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-from cyclopts import App, CycloptsError, Parameter
+from cyclopts import App, CycloptsError, Parameter, UnusedCliTokensError
 
 from poise.cli.balance import balance
 from poise.cli.compare import compare
@@ -68,6 +68,9 @@ def run(arguments: list[str]) -> int:
     except CycloptsError as error:
         command = " ".join(["poise", *(error.command_chain or ())])
         first = " ".join(str(error).split())
+        if isinstance(error, UnusedCliTokensError) and error.unused_tokens:
+            extra = error.unused_tokens[0]
+            first = f"{extra!r} is one too many; what has no name stands together, before or behind all options."
         print(f"poise: {first} See `{command} --help`.", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
