@@ -56,7 +56,6 @@ CASES = (
     Case("arm", {}, 300.0, {"arm, forearm": "forearm", "arm, upper arm": "upper_arm"}),
     Case("handle", {}, 300.0, {"handle": "imu"}),
 )
-CALIBRATED = "iron, calibrated once"
 METHODS = {
     "self-calibrating": lambda r: poise.estimate(poise.SelfCalibrating(), r),
     "self-calibrating, offline": poise.smooth,
@@ -79,31 +78,42 @@ def without(sensor: Sensor, what: str) -> Sensor:
 
 
 def recordings(case: Case, seed: int, duration: float, lacking: str = "") -> dict[str, poise.Recording]:
-    sensor = without(part(PART), "" if lacking == CALIBRATED else lacking)
-    world = worlds.make(case.world, seed=seed, sensor=sensor, **case.options)
+    world = worlds.make(case.world, seed=seed, sensor=without(part(PART), lacking), **case.options)
     worlds.run(world, duration)
-    found = {name: world.recording(at) for name, at in case.sensors.items()}
-    if lacking != CALIBRATED:
-        return found
-    before = worlds.make(case.world, seed=seed, sensor=sensor, **case.options)  # the same devices, moved another way
-    worlds.run(before, COMMISSIONING, worlds.make(case.world, seed=seed + 1000, **case.options).driver())
-    calibrations = {name: affine.magnetometer(before.recording(at)) for name, at in case.sensors.items()}
-    return {name: each.with_samples(mag=calibrations[name](each.mag)) for name, each in found.items()}
+    return {name: world.recording(at) for name, at in case.sensors.items()}
+
+
+def calibrated(case: Case, seed: int, found: Mapping[str, poise.Recording]) -> dict[str, poise.Recording]:
+    """*found* with the iron taken out that another motion of the same devices has told."""
+    world = worlds.make(case.world, seed=seed, sensor=PART, **case.options)
+    worlds.run(world, COMMISSIONING, worlds.make(case.world, seed=seed + 1000, **case.options).driver())
+    told = {name: affine.magnetometer(world.recording(at)) for name, at in case.sensors.items()}
+    return {name: each.with_samples(mag=told[name](each.mag)) for name, each in found.items()}
 
 
 Errors = dict[str, dict[str, list[tuple[float, float, float]]]]  # case → method → a triple a seed, °
 
 
-def measured(cases: Sequence[Case], seeds: Sequence[int], share: float, lacking: str = "") -> Errors:
-    """Total, heading and inclination RMSE, over the rows in motion."""
-    found: Errors = {name: {method: [] for method in METHODS} for case in cases for name in case.sensors}
+def measured(
+    cases: Sequence[Case], seeds: Sequence[int], share: float, lacking: str = "", after: Errors | None = None
+) -> Errors:
+    """Total, heading and inclination RMSE, over the rows in motion; *after* gets those of calibrated devices."""
+    found: Errors = {}
     for case in cases:
         for seed in seeds:
-            print(f"{case.world}, seed {seed}{f', without {lacking}' if lacking else ''}", file=sys.stderr)
-            for name, recording in recordings(case, seed, share * case.duration, lacking).items():
-                for method, run in METHODS.items():
-                    found[name][method].append(tuple(poise.evaluate(run(recording), recording).rmse_deg()))
+            print(f"{case.world}, seed {seed}{f', no error of the {lacking}' if lacking else ''}", file=sys.stderr)
+            plain = recordings(case, seed, share * case.duration, lacking)
+            _add(found, plain)
+            if after is not None and set(case.sensors) & set(ASKED):
+                _add(after, calibrated(case, seed, plain))
     return found
+
+
+def _add(errors: Errors, recordings: Mapping[str, poise.Recording]) -> None:
+    for name, recording in recordings.items():
+        for method, run in METHODS.items():
+            triple = tuple(poise.evaluate(run(recording), recording).rmse_deg())
+            errors.setdefault(name, {}).setdefault(method, []).append(triple)
 
 
 def late(rate: float, seeds: Sequence[int], duration: float) -> list[Cell]:
@@ -147,7 +157,8 @@ def _rmse(out: np.ndarray, true: np.ndarray, rows: float) -> float:
 
 def report(quick: bool, markdown: bool) -> str:
     seeds, share = (list(SEEDS)[:1], 0.1) if quick else (list(SEEDS), 1.0)
-    errors = measured(CASES, seeds, share)
+    after: Errors = {}
+    errors = measured(CASES, seeds, share, after=after)
     text = [heading(f"Errors, RMSE in degrees in motion, mean of {len(seeds)} seeds (worst)", markdown=markdown)]
     rows: list[list[Cell]] = []
     for name, methods in errors.items():
@@ -155,7 +166,6 @@ def report(quick: bool, markdown: bool) -> str:
             mean, worst = np.mean(each, axis=0), np.max(each, axis=0)
             rows.append([name, method, *(f"{a:.2f} ({b:.2f})" for a, b in zip(mean, worst, strict=True))])
     text.append(table(["where", "method", "total", "heading", "inclination"], rows, markdown=markdown))
-    after = measured([case for case in CASES if set(case.sensors) & set(ASKED)], seeds, share, CALIBRATED)
     text += [heading("What was asked for", markdown=markdown), verdicts(errors, after, markdown)]
     text.append(heading("Total RMSE with one sensor's errors taken away, degrees, mean", markdown=markdown))
     text.append(lacking(errors, seeds[:3], share, markdown))
@@ -198,7 +208,7 @@ def verdicts(errors: Errors, after: Errors, markdown: bool) -> str:
 
 def lacking(errors: Errors, seeds: Sequence[int], share: float, markdown: bool) -> str:
     cases = [case for case in CASES if case.world in ("arm", "handle")]
-    kinds = ("iron", "accelerometer", "gyroscope")  # as without() knows them
+    kinds = ("iron", "accelerometer", "gyroscope")
     lesser = {kind: measured(cases, seeds, share, kind) for kind in kinds}
     rows: list[list[Cell]] = []
     for name in (name for case in cases for name in case.sensors):
