@@ -1,10 +1,11 @@
 """Closed loops in physics.
 
     python benchmarks/loops.py stands|pushes|drive|slews [--count N] [--seconds S] [--method M] [--write]
+    python benchmarks/loops.py picture
 
 stands: balancing for a minute, pushed by 3 N, to and fro at 0.3 m/s. pushes: random pushes; every fall is to be detected
 150 ms before the impact, nothing that recovers. drive: over bumps and with vibration; no alarm. slews: every nine-axis
-method against the truth in the same loop.
+method against the truth in the same loop. picture: docs/images/slews.png.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ os.environ.setdefault("GPIOZERO_PIN_FACTORY", "mock")
 STANDS, PUSHES, DRIVE, SLEWS = 9000, 8000, 9101, 9200  # first seeds; gains and limits were chosen with others
 DOCS = Path(__file__).parents[1] / "docs"
 PAGES = {"stands": "balance.md", "pushes": "balance.md", "drive": "balance.md", "slews": "control.md"}
+PICTURED, PHOTOGRAPHS = 200, (2.9, 4.0, 5.0, 13.0, 14.0)  # seed; s
 NINE_AXIS = ("truth", "self-calibrating", "two-stage", "adaptive-gain", "armband")
 
 
@@ -144,6 +146,22 @@ def slews(count: int) -> str:
     return f"{told}\n\n{table(columns, rows, markdown=True)}"
 
 
+def picture(method: str, path: Path) -> None:
+    """Three slews of a development seed as a picture with photographs."""
+    from poise.loops.slewing import slewing
+    from poise.plots import save_figure, slewing_figure
+    from poise.simulation.worlds import AttitudeBody
+
+    moments: list[tuple[float, np.ndarray]] = []
+
+    def look(now: float, world: AttitudeBody) -> None:
+        if len(moments) < len(PHOTOGRAPHS) and now >= PHOTOGRAPHS[len(moments)] - 1e-9:
+            moments.append((now, world.render(420, 420)))
+
+    run = slewing(method, seed=PICTURED, look=look)
+    save_figure(slewing_figure(run, slewing("truth", seed=PICTURED), moments), path)
+
+
 def write(what: str, found: str) -> None:
     """Put *found* between the marks of *what* in its page."""
     page = DOCS / PAGES[what]
@@ -158,12 +176,15 @@ def write(what: str, found: str) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=[*PAGES])
+    parser.add_argument("what", choices=[*PAGES, "picture"])
     parser.add_argument("--count", type=int, help="seeds: 10 stands, 100 pushes, 3 drives, 10 bodies")
     parser.add_argument("--seconds", type=float, default=1800.0, help="of a drive")
     parser.add_argument("--method", help="instead of two-stage, for stands and drives also instead of self-calibrating")
     parser.add_argument("--write", action="store_true", help="put the table into its page")
     given = parser.parse_args()
+    if given.what == "picture":
+        picture(given.method or "self-calibrating", DOCS / "images" / "slews.png")
+        return
     methods = [given.method] if given.method else ["two-stage", "self-calibrating"]
     if given.what == "stands":
         found = stands(methods, given.count or 10)

@@ -155,7 +155,13 @@ def test_the_command_speaks_the_alarm_into_a_file(tmp_path: Path, capsys: pytest
 
 
 def test_the_command_names_what_it_cannot_do(capsys: pytest.CaptureFixture[str]) -> None:
-    for wrong in (["--duration", "-1"], ["--method", "hope"], ["--sensor", "none"], ["--seed", "-1"], ["-o", "run.txt"]):
+    for wrong in (
+        ["--duration", "-1"],
+        ["--method", "hope"],
+        ["--sensor", "none"],
+        ["--seed", "-1"],
+        ["-o", "run.txt"],
+    ):
         assert run(["balance", *wrong]) == 2
         said = capsys.readouterr().err
         assert len(said.splitlines()) == 1 and wrong[1] in said
