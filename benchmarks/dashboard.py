@@ -28,11 +28,11 @@ PAINT = "performance.getEntriesByName('first-contentful-paint')[0]?.startTime ??
 
 
 def devices(port: int, count: int, ended: threading.Event) -> None:
-    """*count* devices that turn at different rates, 100 samples a second in frames of 5."""
+    """*count* devices that turn at different rates, 100 samples a second in frames of 2."""
     with ExitStack() as stack:
         sockets = [stack.enter_context(connect(f"ws://127.0.0.1:{port}/ws/device/unit-{k:02}")) for k in range(count)]
         began, sent = time.monotonic(), 0
-        while not ended.wait(0.05):
+        while not ended.wait(0.02):
             n = int((time.monotonic() - began) * RATE) - sent
             if n <= 0:
                 continue

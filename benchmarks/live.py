@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import asyncio
 import base64
+import gc
 import json
 import os
 import signal
@@ -242,11 +243,21 @@ async def stalled(seconds: float) -> dict[str, Any]:
             each.transport.pause_reading()
         viewer.late.clear()
         viewer.rows = 0
-        sent = await pushing(found, 100, 1, 2 * seconds, 1_000_000)
+        sent = await pushing(found, 100, 1, 5.0, 1_000_000)
+        await drained(viewer, sent)
+        filling = said(viewer, sent)  # until the buffers of the system are full, they are viewers like others
+        viewer.late.clear()
+        viewer.rows = 0
+        sent = await pushing(found, 100, 1, 2 * seconds, 2_000_000)
         await drained(viewer, sent)
         after = said(viewer, sent)
         grown = server.rss() - rss
-        return {"without": before, "with": after, "rss_grown_mib": round(grown, 1)}
+        return {
+            "without": before,
+            "with_their_buffers_filling": filling,
+            "with": after,
+            "rss_grown_mib": round(grown, 1),
+        }
     finally:
         server.end()
 
@@ -426,7 +437,10 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=10.0)
     asked = parser.parse_args()
     kept = json.loads(RESULTS.read_text()) if RESULTS.exists() else {}
+    gc.freeze()  # what measures should not stand still itself
+    gc.disable()
     for name in asked.scenarios or SCENARIOS:
+        gc.collect()
         others = os.getloadavg()[0]
         found = uvloop.run(SCENARIOS[name](asked.seconds))
         kept[name] = found | {"seconds": asked.seconds, "load_before": round(others, 1)}

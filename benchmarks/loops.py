@@ -1,9 +1,11 @@
 """Closed loops in physics.
 
-    python benchmarks/loops.py pushes|drive|slews [--count N] [--seconds S] [--method M] [--write]
+    python benchmarks/loops.py stands|pushes|drive|slews [--count N] [--seconds S] [--method M] [--write]
+    python benchmarks/loops.py picture
 
-pushes: random pushes; every fall is to be detected 150 ms before the impact, nothing that recovers. drive: over bumps and
-with vibration; no alarm. slews: every nine-axis method against the truth in the same loop.
+stands: balancing for a minute, pushed by 3 N, to and fro at 0.3 m/s. pushes: random pushes; every fall is to be detected
+150 ms before the impact, nothing that recovers. drive: over bumps and with vibration; no alarm. slews: every nine-axis
+method against the truth in the same loop. picture: docs/images/slews.png.
 """
 
 from __future__ import annotations
@@ -17,14 +19,43 @@ from pathlib import Path
 
 import numpy as np
 
+from poise.loops import BalanceRun
 from tables import Cell, table
 
 os.environ.setdefault("GPIOZERO_PIN_FACTORY", "mock")
 
-PUSHES, DRIVE, SLEWS = 8000, 9101, 9200  # first seeds; gains and limits were chosen with others
+STANDS, PUSHES, DRIVE, SLEWS = 9000, 8000, 9101, 9200  # first seeds; gains and limits were chosen with others
 DOCS = Path(__file__).parents[1] / "docs"
-PAGES = {"pushes": "balance.md", "drive": "balance.md", "slews": "control.md"}
+PAGES = {"stands": "balance.md", "pushes": "balance.md", "drive": "balance.md", "slews": "control.md"}
+PICTURED, PHOTOGRAPHS = 200, (2.9, 4.0, 5.0, 13.0, 14.0)  # seed; s
 NINE_AXIS = ("truth", "self-calibrating", "two-stage", "adaptive-gain", "armband")
+
+
+def stands(methods: Sequence[str], count: int) -> str:
+    from poise.loops.balancing import Push, balancing
+
+    rows: list[Sequence[Cell]] = []
+    pushed = tuple(Push(10.0 * i, (0.0, 3.0 if i % 2 else -3.0, 0.0)) for i in range(1, 6))
+    for method in methods:
+        runs = [balancing(method, seed=seed, pushes=pushed) for seed in range(STANDS, STANDS + count)]
+        follows = []
+        for run in runs:
+            wanted = run["wanted"]
+            driving = (np.abs(wanted) > 0.0) & (np.roll(wanted, 400) == wanted)  # for 2 s by then
+            follows.append(float(np.mean(run["speed"][driving] * np.sign(wanted[driving]))) if driving.any() else 0.0)
+        lean, estimate = ([degrees(f(run)) for run in runs] for f in (_leant, BalanceRun.estimate_rms))
+        rows.append([
+            method, f"{sum(not run.fell for run in runs)} of {count}", str(sum(run.triggered for run in runs)),
+            f"{max(lean):.1f}", f"{min(follows):.2f} to {max(follows):.2f}", f"{np.mean(estimate):.2f} ({max(estimate):.2f})",
+        ])  # fmt: skip
+    columns = ["method", "stood", "alarms", "largest lean, °", "speed at ±0.3 m/s, m/s", "estimate RMS, ° (worst)"]
+    seeds = f"seeds {STANDS} to {STANDS + count - 1}, 60 s each"
+    told = f"`python benchmarks/loops.py stands --write`: {seeds}, pushed by 3 N for 0.1 s every 10 s."
+    return f"{told}\n\n{table(columns, rows, markdown=True)}"
+
+
+def _leant(run: BalanceRun) -> float:
+    return float(np.abs(run["lean"]).max())
 
 
 def pushes(method: str, count: int) -> str:
@@ -115,6 +146,22 @@ def slews(count: int) -> str:
     return f"{told}\n\n{table(columns, rows, markdown=True)}"
 
 
+def picture(method: str, path: Path) -> None:
+    """Three slews of a development seed as a picture with photographs."""
+    from poise.loops.slewing import slewing
+    from poise.plots import save_figure, slewing_figure
+    from poise.simulation.worlds import AttitudeBody
+
+    moments: list[tuple[float, np.ndarray]] = []
+
+    def look(now: float, world: AttitudeBody) -> None:
+        if len(moments) < len(PHOTOGRAPHS) and now >= PHOTOGRAPHS[len(moments)] - 1e-9:
+            moments.append((now, world.render(420, 420)))
+
+    run = slewing(method, seed=PICTURED, look=look)
+    save_figure(slewing_figure(run, slewing("truth", seed=PICTURED), moments), path)
+
+
 def write(what: str, found: str) -> None:
     """Put *found* between the marks of *what* in its page."""
     page = DOCS / PAGES[what]
@@ -129,16 +176,21 @@ def write(what: str, found: str) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=[*PAGES])
-    parser.add_argument("--count", type=int, help="seeds: 100 pushes, 3 drives, 10 bodies")
+    parser.add_argument("what", choices=[*PAGES, "picture"])
+    parser.add_argument("--count", type=int, help="seeds: 10 stands, 100 pushes, 3 drives, 10 bodies")
     parser.add_argument("--seconds", type=float, default=1800.0, help="of a drive")
-    parser.add_argument("--method", help="instead of two-stage, for drives also instead of self-calibrating")
+    parser.add_argument("--method", help="instead of two-stage, for stands and drives also instead of self-calibrating")
     parser.add_argument("--write", action="store_true", help="put the table into its page")
     given = parser.parse_args()
-    if given.what == "pushes":
+    if given.what == "picture":
+        picture(given.method or "self-calibrating", DOCS / "images" / "slews.png")
+        return
+    methods = [given.method] if given.method else ["two-stage", "self-calibrating"]
+    if given.what == "stands":
+        found = stands(methods, given.count or 10)
+    elif given.what == "pushes":
         found = pushes(given.method or "two-stage", given.count or 100)
     elif given.what == "drive":
-        methods = [given.method] if given.method else ["two-stage", "self-calibrating"]
         found = drive(methods, given.seconds, given.count or 3)
     else:
         found = slews(given.count or 10)

@@ -18,8 +18,9 @@ from websockets.sync.client import ClientConnection, connect
 import poise
 from poise.live import frames
 from poise.live.hub import Hub
+from poise.live.listening import Options
 from poise.live.methods import Choice
-from poise.live.server import Options, Server
+from poise.live.server import Server
 
 METHOD = "adaptive-gain"  # the quickest to compile
 

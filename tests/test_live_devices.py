@@ -114,7 +114,30 @@ def test_a_port_that_is_taken_is_an_event() -> None:
     with serving(first) as live:
         with serving(Udp("127.0.0.1", bound(first)[1])) as other:
             wait_for(lambda: any("cannot listen" in event["text"] for event in list(other.hub.events)))
+            answer = other.http.get("/healthz")
+            assert answer.status_code == 503
+            assert any("cannot listen" in reason for reason in answer.json()["reasons"])
+            assert 'state="failed"} 1' in other.http.get("/metrics").text
         assert live.http.get("/healthz").status_code == 200
+        assert live.http.get("/healthz").json()["sources"] == [{"name": first.name, "state": "ok", "text": ""}]
+
+
+def test_a_source_that_floods_is_held_to_the_rate_and_its_neighbour_loses_nothing(sender: socket.socket) -> None:
+    udp = Udp("127.0.0.1", 0)
+    with serving(udp, max_rate=200.0) as live:
+        to = bound(udp)
+        for k in range(0, 6000, 20):
+            k %= 300
+            sender.sendto(b"@flood\n" + lines(ROWS[k : k + 20]), to)
+            if k % 100 == 0:
+                time.sleep(0.01)
+        sender.sendto(b"@calm\n" + frames.encoded(ROWS[:100], 0), to)
+        arrived(live, "calm", 100)
+        flood = live.hub.find("flood").health
+        wait_for(lambda: flood.samples + flood.throttled == 6000)
+        assert flood.throttled > 3000
+        assert any(event["kind"] == "throttled" and event["device"] == "flood" for event in list(live.hub.events))
+        assert f'poise_device_throttled_total{{device="flood"}} {flood.throttled}' in live.http.get("/metrics").text
 
 
 # -- serial ---------------------------------------------------------------------------------------------------------

@@ -23,6 +23,7 @@ from websockets.sync.client import connect
 import poise
 from live_helpers import METHOD, ask, heard, made, rows_of, send, serving, wait_for
 from poise.cli import run
+from poise.estimators.loop import advance
 from poise.live import frames, journal
 from poise.live.methods import Choice
 from poise.live.recorder import Recorder
@@ -171,6 +172,34 @@ def test_a_full_disk_stops_acknowledgements_and_nothing_else(tmp_path: Path, mon
     same_as_uncut(session, "arm", recording)
 
 
+def test_a_fault_in_the_recorder_is_said_and_costs_what_it_met(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    rows = rows_of(made(6.0))
+    faulty, encoded = [False], journal.encoded_batch
+
+    def broken(batch: Any) -> journal.Encoded:
+        if faulty[0]:
+            raise ZeroDivisionError("a fault of ours")
+        return encoded(batch)
+
+    monkeypatch.setattr(journal, "encoded_batch", broken)
+    recorder = Recorder(Session.below(tmp_path))
+    with serving(recorder=recorder) as live, live.device("arm") as device:
+        send(device, rows[:200])
+        acknowledged(device, 200)
+        faulty[0] = True
+        send(device, rows[200:400], first=200)
+        assert "a fault of ours" in heard(device, "recording")["reason"]
+        wait_for(lambda: recorder.lost == 200)
+        faulty[0] = False
+        send(device, rows[400:], first=400)
+        ack = heard(device, "ack")
+        while ack["next"] < 600:
+            ack = heard(device, "ack")
+        assert ack["lost"] == 200
+    (session,) = tmp_path.iterdir()
+    assert len(poise.read(session / "arm.parquet")) == 400
+
+
 def test_what_cannot_wait_any_longer_is_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     rows = rows_of(made(10.0))
     blocked = [True]
@@ -278,17 +307,59 @@ def test_recover_cuts_a_torn_tail_and_says_so(tmp_path: Path, capsys: pytest.Cap
     assert run(["recover", str(tmp_path / "nowhere")]) == 1
 
 
-def test_a_flipped_bit_is_found(tmp_path: Path) -> None:
+def test_a_flipped_bit_costs_its_block_and_no_other(tmp_path: Path) -> None:
     block = journal.encoded_checkpoint("arm", 7, [])
     path = tmp_path / "1.log"
     data = b"".join(block.parts)
     path.write_bytes(data * 3)
     assert [b.head["next"] for b in journal.read(path) if isinstance(b, journal.Block)] == [7, 7, 7]
-    for bit in range(0, 8 * len(data), 5):
-        flipped = bytearray(data * 2)
-        flipped[len(data) + bit // 8] ^= 1 << bit % 8
-        path.write_bytes(flipped)
-        found = list(journal.read(path))
-        assert isinstance(found[-1], journal.Torn)
-        assert found[-1].good == len(data)
+    size = len(data)
+    for bit in range(0, 8 * size, 5):
+        for blocks in (2, 3):
+            flipped = bytearray(data * blocks)
+            flipped[size + bit // 8] ^= 1 << bit % 8
+            path.write_bytes(flipped)
+            first, damage, *rest = journal.read(path)
+            assert isinstance(first, journal.Block)
+            assert damage == journal.Unreadable(size, size, blocks == 2)
+            assert len(rest) == blocks - 2
+            assert all(isinstance(each, journal.Block) for each in rest)
     assert json.loads(bytes(block.parts[1]))["device"] == "arm"
+
+
+@pytest.mark.parametrize("finish", ["recover", "go on"])
+def test_damage_within_a_journal_is_left_out_and_what_follows_is_kept(
+    tmp_path: Path, finish: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    recording = made(6.0)
+    rows = rows_of(recording)
+    started = Started(tmp_path)
+    with suppress(ConnectionClosed), connect(f"ws://127.0.0.1:{started.port}/ws/device/arm") as device:
+        for k in range(0, len(rows), 100):
+            send(device, rows[k : k + 100], first=k)
+            acknowledged(device, k + 100)
+        started.end(signal.SIGKILL)
+    (session,) = interrupted(tmp_path)
+    log = max((session / "journal").glob("*.log"))
+    content = bytearray(log.read_bytes())
+    at = content.index(rows[250].tobytes())
+    content[at + 3] ^= 16
+    log.write_bytes(content)
+    if finish == "recover":
+        assert run(["recover", str(tmp_path)]) == 0
+        said = capsys.readouterr()
+        assert "are damaged and left out" in said.err
+    else:
+        Choice.of(METHOD).warm()
+        kinds = len(advance.signatures)
+        recorder = Recorder(Session.below(tmp_path))
+        with serving(recorder=recorder) as live, live.device("arm") as device:
+            assert heard(device, "welcome")["next"] == len(rows)
+            assert any("are damaged and left out" in event["text"] for event in list(live.hub.events))
+            wait_for(lambda: live.hub.devices["arm"].runs)
+        assert len(advance.signatures) == kinds  # to compile it anew would keep a device waiting for many seconds
+    kept = poise.read(session / "arm.parquet").time
+    missing = np.flatnonzero(~np.isin(recording.time, kept))
+    assert 250 in missing
+    assert len(missing) <= 100  # the block of one packet
+    assert np.isin(kept, recording.time).all()

@@ -23,9 +23,10 @@ from poise.live import frames
 from poise.live.access import Access, AccessError, parsed_tokens
 from poise.live.device import Device
 from poise.live.hub import Hub, HubError
+from poise.live.listening import Options, ServerError
 from poise.live.methods import Choice
 from poise.live.replay import Replay
-from poise.live.server import Options, Server, ServerError
+from poise.live.server import Server
 from poise.live.watching import Watch
 from poise.monitor import judge
 from poise.responses import Responses
@@ -206,6 +207,28 @@ def test_a_device_far_above_its_rate_is_cut_off() -> None:
         send(calm, rows[:100])
         wait_for(lambda: live.hub.find("calm").health.samples == 100)
         assert live.hub.find("calm").health.lost == 0
+
+
+def test_the_rate_is_that_of_a_device_however_many_connections_it_has() -> None:
+    rows = rows_of(made(6.0))
+    with serving(max_rate=200.0) as live, live.device("flood") as one, live.device("flood") as other:
+        for k in range(0, 600, 100):  # each of them stays below what is allowed to one
+            send((one, other)[k // 100 % 2], rows[k : k + 100], first=k, size=50)
+        wait_for(lambda: any(event["kind"] == "throttled" for event in list(live.hub.events)))
+
+
+def test_packets_that_come_late_are_counted_and_flags_of_now_are_told() -> None:
+    rows = rows_of(made(1.0))
+    with serving() as live, live.device("arm") as device:
+        for k in range(0, 100, 10):
+            time.sleep(0.1 + 0.15 * (k == 70))
+            send(device, rows[k : k + 10], first=k)
+        wait_for(lambda: live.hub.find("arm").health.samples == 100)
+        wait_for(lambda: live.hub.find("arm").health.silent)
+        assert live.hub.find("arm").health.late >= 1
+        told = live.http.get("/metrics").text
+        assert f'poise_flag{{device="arm",method="{METHOD}",flag="SILENT"}} 1' in told
+        assert 'poise_device_late_total{device="arm"}' in told
 
 
 @pytest.mark.parametrize(

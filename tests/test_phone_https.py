@@ -27,7 +27,7 @@ from poise.live import certificate
 from poise.live.access import SCOPES
 from poise.live.address import for_phones, own_addresses, show_qr, svg_qr
 from poise.live.certificate import CertificateError, check, own_certificate, public_part
-from poise.live.server import Options
+from poise.live.listening import Options
 
 NAMES = ["localhost", "127.0.0.1", "box.local", "::1"]
 DEVICE, WRITE = "device-token-of-16", "writing-token-of-16"

@@ -149,6 +149,7 @@ fire = ["power", "horn"]
         ("active_high = false", 'active_high = "low"', "expected true or false, found 'low'"),
         ("pin = 17", 'pin = 17\nfail_safe = "cutt"', "did you mean 'cut'?"),
         ("pin = 17", 'pin = 17\nif_failed = ["hron"]', "did you mean 'horn'?"),
+        ("pin = 17", 'pin = 17\nif_failed = ["power"]', "responders.power.if_failed: 'power' is itself"),
         ("pin = 17", "pin = 17\ntimeout = -1", "responders.power.timeout: expected seconds above 0"),
         ("pin = 17", "pin = 17\ntimeout = nan", "expected a number, found nan"),
         ('"voice"', '"voice"\nlanguage = "xx"', "texts of our own are in en and zh, not in 'xx'"),

@@ -16,7 +16,7 @@ import { Stage } from "./stage";
 import { Store } from "./store";
 import { Transport } from "./transport";
 
-const LEAST_BETWEEN = 30; // ms between two redraws: frames come 30 times a second
+const LEAST_BETWEEN = 20; // ms between two redraws: 30 a second on a screen of 60, and no frame of a slow one left out
 
 declare global {
   interface Window {

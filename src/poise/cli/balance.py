@@ -64,7 +64,7 @@ def balance(
         A .wav file that the alarm is spoken into (needs espeak-ng).
     """
     try:
-        _checked(output, push, every, duration, speed)
+        _checked(output, seed, push, every, duration, method, sensor, speed)
         os.environ.setdefault("GPIOZERO_PIN_FACTORY", "mock")
         return _run(output, seed, push, every, duration, method, sensor, speed, say)
     except UsageError as error:
@@ -75,9 +75,21 @@ def balance(
         return 1
 
 
-def _checked(output: Path | None, push: float, every: float, duration: float, speed: float) -> None:
+def _checked(
+    output: Path | None, seed: int, push: float, every: float, duration: float, method: str, sensor: str, speed: float
+) -> None:
     from poise.cli.targets import check_room
+    from poise.loops.eyes import check_method
     from poise.plots import FORMATS
+    from poise.simulation.parts import part
+
+    try:
+        check_method(method)
+        part(sensor)
+    except PoiseError as error:
+        usage(str(error))
+    if seed < 0:
+        usage(f"--seed {seed}: expected 0 or more")
 
     if output is not None:
         if output.suffix.lower().removeprefix(".") not in FORMATS:

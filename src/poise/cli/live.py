@@ -16,7 +16,8 @@ from poise.errors import PoiseError
 
 if TYPE_CHECKING:
     from poise.live.hub import Hub
-    from poise.live.server import Options, Server
+    from poise.live.listening import Options
+    from poise.live.server import Server
     from poise.live.watching import Watch
 
 
@@ -207,7 +208,7 @@ def _watch(tipover: Path | None, respond: tuple[str, ...]) -> Watch | None:
 
 def _options(host: str, port: int, tokens: tuple[str, ...], hosts: tuple[str, ...], phone: bool) -> Options:
     from poise.live.access import SCOPES, loopback, parsed_tokens
-    from poise.live.server import Options
+    from poise.live.listening import Options
 
     if not 0 <= port <= 65535:
         usage(f"--port {port}: expected 0 to 65535")

@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from poise.live.server import Options
+    from poise.live.listening import Options
 
 
 def address(options: Options) -> str:

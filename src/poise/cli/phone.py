@@ -9,7 +9,7 @@ from poise.cli import show
 from poise.cli.page import address
 
 if TYPE_CHECKING:
-    from poise.live.server import Options
+    from poise.live.listening import Options
 
 _COMMAND = "poise live phone --host 0.0.0.0 --https"
 

@@ -14,7 +14,8 @@ from poise.errors import PoiseError
 def recover(folders: Annotated[list[Path], Parameter(name="FOLDER", negative="")], /) -> int:
     """Finish recordings of `poise live --record FOLDER` that were interrupted: by a crash, a full disk, a pulled plug.
 
-    Every sample that was acknowledged is there. What was being written at that instant is cut off, and said to be. To go on
+    Every sample that was acknowledged is there. What was being written at that instant is cut off, what the disk has damaged
+    since is left out; both are said. To go on
     recording instead, start `poise live --record FOLDER` again.
 
     Example: `poise recover recordings/`
@@ -43,7 +44,7 @@ def recover(folders: Annotated[list[Path], Parameter(name="FOLDER", negative="")
                 show.problem(error)
                 problems += 1
                 continue
-            for text in session.found.torn:
+            for text in session.found.damage:
                 show.note(f"{each}: {text}")
             print(f"{each}: {session.found.samples} samples recovered, in {len(made)} files")
     return 1 if problems else 0

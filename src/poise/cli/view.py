@@ -137,7 +137,8 @@ async def _served(films: list[Film], port: int, opened: bool | None) -> None:
     import asyncio
 
     from poise.live.hub import Hub
-    from poise.live.server import Options, Server
+    from poise.live.listening import Options
+    from poise.live.server import Server
 
     server = Server(Hub(()), options=Options(port=port), films=films)
     ready = asyncio.Event()

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TextIO
 from poise.live.access import loopback
 
 if TYPE_CHECKING:
-    from poise.live.server import Options
+    from poise.live.listening import Options
 
 _FAR = (("192.0.2.1", socket.AF_INET), ("2001:db8::1", socket.AF_INET6))  # for documentation: nobody has them
 

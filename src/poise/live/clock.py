@@ -28,6 +28,8 @@ class DeviceClock:
     def __init__(self) -> None:
         self.restarts = -1
         """how often the device's clock was set"""
+        self.late = 0.0
+        """s that the last packet came later than the line says"""
         self._late_since = inf
         self._restart(nan)
 
@@ -44,7 +46,7 @@ class DeviceClock:
             return
         if not isfinite(self._zero):
             self._zero = device
-        late = host - self.host(device) if self._at else 0.0
+        self.late = late = host - self.host(device) if self._at else 0.0
         if late < -_JUMP or (device < self._newest - _JUMP and abs(late) > _JUMP) or self._stays_late(late, host):
             self._restart(device)
         elapsed, delay = device - self._zero, host - device

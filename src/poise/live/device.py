@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
+from math import inf
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,6 +21,7 @@ from poise.monitor import Monitor
 
 Floats = NDArray[np.float64]
 
+_BURST = 1.0  # s of samples at the highest rate that may come at once
 _SILENCE = 0.05  # s, at least; and three usual intervals between arrivals
 _RATE_OVER = 2.0  # s that rates are counted over
 _FAR_BACK = 4096  # samples: a number further back is a device that began to count anew
@@ -47,11 +49,30 @@ class Taken(NamedTuple):
     first_arrived: float
 
 
+class Allowance:
+    """How many samples a device may send now: those of a second at once, over all its connections."""
+
+    def __init__(self) -> None:
+        self._left, self._filled = 0.0, -inf
+
+    def grants(self, samples: int, now: float, most: float) -> bool:
+        """Whether *samples* more stay within *most* a second; if so, they are counted."""
+        left = min(self._left + (now - self._filled) * most, _BURST * most) - samples
+        self._filled = now
+        granted = left >= 0.0
+        self._left = left if granted else left + samples
+        return granted
+
+
 class Health:
     """Counts of a device's samples."""
 
     def __init__(self) -> None:
         self.samples = self.lost = self.repeated = self.rejected = self.silences = 0
+        self.throttled = 0
+        """samples that were not taken since there were too many a second"""
+        self.late = 0
+        """packets that came more than 50 ms later than its clock says"""
         self.heard = 0.0
         """s, monotonic, of the last packet"""
         self.silent = False
@@ -91,6 +112,7 @@ class Device:
         """the methods that it is to run once they are compiled; empty where it does"""
         self.clock = DeviceClock()
         self.health = Health()
+        self.allowance = Allowance()
         self.next = 0
         """the number of the next new sample"""
         self.connected = 0
@@ -271,6 +293,8 @@ class Device:
             "lost": health.lost,
             "repeated": health.repeated,
             "rejected": health.rejected,
+            "throttled": health.throttled,
+            "late": health.late,
             "silences": health.silences,
             "last_heard_s": round(now - health.heard, 3) if health.samples else None,
             "invalid": {run.choice.name: run.invalid for run in self.runs},

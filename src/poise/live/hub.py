@@ -25,8 +25,9 @@ from poise.live.watching import Watch, as_facts, as_text
 
 _EVENTS = 1000
 MOST_DEVICES = 10_000
-_QUICKEST, _SLOWEST = 0.004, 0.02  # s between ticks: as often as a quarter of the time allows
+_QUICKEST, _SLOWEST = 0.004, 0.01  # s between ticks: more devices are done together the busier it is
 _NAME_BYTES = 160  # of the 255 that a file's name may have: a recording's have the method and an ending, too
+_LATE_PACKET = 0.05  # s
 _LATE_TICK = 0.02  # s beside the pause; a tick that comes later than this says nothing about devices
 
 
@@ -195,7 +196,7 @@ class Hub:
 
     @property
     def pause(self) -> float:
-        """s to the next tick: ticks with samples take a quarter of the time, at most."""
+        """s to the next tick: ticks take a quarter of the time, or what comes in 10 ms is done together."""
         return min(max(4.0 * self.tick_cost, _QUICKEST), _SLOWEST)
 
     def tick(self, now: float | None = None) -> Batch | None:
@@ -221,6 +222,7 @@ class Hub:
             parts.append(taken.rows)
             first, n = taken.sequence, len(taken.rows)
             device.clock.update(float(taken.rows[-1, 0]), taken.arrived)
+            device.health.late += device.clock.late > _LATE_PACKET
             arrived.append(taken.first_arrived)
             for run in device.runs:
                 spans.append(Span(device, run, first, slice(row, row + n), slice(out, out + n)))

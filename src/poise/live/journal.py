@@ -1,12 +1,13 @@
 """The journal: blocks of samples, attitudes and checkpoints, appended one after another, each with its checksum.
 
 A block is magic, kind, lengths of its JSON head and of its arrays, and the CRC-32 of all that follows; then the head and the
-arrays. What does not fit its checksum, and everything behind it, is a torn tail.
+arrays. What does not fit its checksum, up to the next block that does, was damaged; where none follows, it is a torn tail.
 """
 
 from __future__ import annotations
 
 import json
+import mmap
 import os
 import struct
 import zlib
@@ -26,7 +27,6 @@ Floats = NDArray[np.float64]
 _HEAD = struct.Struct("<4sIIQI")
 _MAGIC = b"PSJ1"
 SAMPLES, CHECKPOINT = 1, 2
-_MOST = 1 << 31  # bytes in a block: a length beyond that is none
 
 
 class Encoded(NamedTuple):
@@ -104,35 +104,62 @@ def append(file: int, blocks: list[Encoded]) -> None:
     os.fdatasync(file)
 
 
-def read(path: Path) -> Iterator[Block | Torn]:
-    """The blocks of a journal file; at the end a :class:`Torn` where there is more that is no block."""
+def read(path: Path) -> Iterator[Block | Unreadable]:
+    """The blocks of a journal file, and between or behind them an :class:`Unreadable` for bytes that are none."""
     with path.open("rb") as file:
-        size, good = os.fstat(file.fileno()).st_size, 0
-        while good < size:
-            block = _block(file.read(_HEAD.size), file)
+        size, at = os.fstat(file.fileno()).st_size, 0
+        while at < size:
+            block = _block(file, size)
             if block is None:
-                yield Torn(good, size - good)
-                return
-            good = file.tell()
+                good = at
+                at = _next_block(file, good + 1, size)
+                yield Unreadable(good, at - good, at == size)
+                file.seek(at)
+                continue
+            at = file.tell()
             yield block
 
 
-class Torn(NamedTuple):
-    """Where the good blocks of a file end, and how many bytes follow."""
+class Unreadable(NamedTuple):
+    """Bytes of a journal file that are no block."""
 
-    good: int
-    torn: int
+    start: int
+    size: int
+    tail: bool
+    """nothing good follows: what was being written when it all ended"""
+
+    @property
+    def said(self) -> str:
+        if self.tail:
+            return f"a torn tail of {self.size} bytes was cut off"
+        return f"{self.size} bytes from byte {self.start} on are damaged and left out; what follows them is kept"
 
 
-def _block(start: bytes, file: Any) -> Block | None:
+def _next_block(file: Any, start: int, size: int) -> int:
+    """Where the next good block is from *start* on; *size*, the end of the file, where there is none."""
+    with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
+        while (start := content.find(_MAGIC, start)) >= 0:
+            file.seek(start)
+            if _block(file, size) is not None:
+                return start
+            start += 1
+    return size
+
+
+def _block(file: Any, size: int) -> Block | None:
+    """The block that begins where *file*, of *size* bytes, is read next."""
+    start = file.read(_HEAD.size)
     if len(start) < _HEAD.size:
         return None
     magic, kind, text_length, length, check = _HEAD.unpack(start)
-    if magic != _MAGIC or text_length + length > _MOST:
+    if magic != _MAGIC or text_length + length > size - file.tell():
         return None
-    body = file.read(text_length + length)
+    body = bytearray(
+        text_length + length
+    )  # bytes would make arrays that cannot be written: another type for the compiler
+    file.readinto(body)
     found = zlib.crc32(body, zlib.crc32(struct.pack("<IIQ", kind, text_length, length)))
-    if len(body) != text_length + length or found != check:
+    if found != check:
         return None
     head = json.loads(body[:text_length])
     n, m = head.get("rows", 0), head.get("out", 0)

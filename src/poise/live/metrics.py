@@ -5,6 +5,8 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING, Any
 
+from poise.data.flags import Flag
+
 if TYPE_CHECKING:
     from poise.live.server import Server
 
@@ -13,6 +15,8 @@ _DEVICE = (
     ("lost_total", "counter", "samples that never came, by their numbers", "lost"),
     ("repeated_total", "counter", "samples that came again", "repeated"),
     ("rejected_total", "counter", "frames that could not be read", "rejected"),
+    ("throttled_total", "counter", "samples not taken since there were too many a second", "throttled"),
+    ("late_total", "counter", "packets more than 50 ms later than its clock says", "late"),
     ("silences_total", "counter", "times it fell silent", "silences"),
     ("rate_hz", "gauge", "samples a second of late", "rate_hz"),
     ("silent", "gauge", "1 while nothing comes", "silent"),
@@ -30,6 +34,13 @@ def metrics(server: Server) -> str:
         _family(lines, f"poise_device_{name}", kind, text, values)
     invalid = [(f'{_label(c)},method="{m}"', n) for c in conditions for m, n in c["invalid"].items()]
     _family(lines, "poise_invalid_total", "counter", "attitudes not to be acted on", invalid)
+    flags = [
+        (f'device="{device.name}",method="{run.choice.name}",flag="{flag.name}"', 1.0)
+        for device in server.hub.devices.values()
+        for run in device.runs
+        for flag in Flag(int(server.hub.newest.records["flags"][run.slot]))
+    ]
+    _family(lines, "poise_flag", "gauge", "1 while the newest attitude has this flag", flags)
     waits_of = [
         (f'{_label(c)},quantile="{q}"', c["wait_ms"][key] / 1e3)
         for c in conditions
@@ -37,6 +48,8 @@ def metrics(server: Server) -> str:
     ]
     text = "from a sample's arrival to its attitude, of a device"
     _family(lines, "poise_device_wait_seconds", "gauge", text, waits_of)
+    sources = [(f'source="{_escaped(c["name"])}",state="{c["state"]}"', 1.0) for c in server.conditions()]
+    _family(lines, "poise_source", "gauge", "1 for the state that a source is in", sources)
     _family(lines, "poise_viewers", "gauge", "connected viewers", [("", len(server.viewers))])
     _family(lines, "poise_tick_seconds", "gauge", "mean cost of a tick with samples", [("", server.hub.tick_cost)])
     waits = server.hub.waits
@@ -48,6 +61,10 @@ def metrics(server: Server) -> str:
         _family(lines, "poise_recorder_waiting", "gauge", "samples not written yet", [("", condition["waiting"])])
         _family(lines, "poise_recorder_lost_total", "counter", "samples never written", [("", condition["lost"])])
     return "\n".join(lines) + "\n"
+
+
+def _escaped(text: str) -> str:
+    return text.replace("\\", r"\\").replace('"', r"\"").replace("\n", " ")
 
 
 def _label(condition: dict[str, Any]) -> str:

@@ -28,7 +28,7 @@ def convert(path: Path, number: int, folder: Path, only: str | None = None) -> i
     samples = defaultdict(list)
     attitudes = defaultdict(list)
     for block in journal.read(path):
-        if isinstance(block, journal.Torn) or block.kind != journal.SAMPLES:
+        if isinstance(block, journal.Unreadable) or block.kind != journal.SAMPLES:
             continue
         taken: set[str] = set()
         for name, _, start, stop, out, method in block.head["spans"]:

@@ -163,7 +163,10 @@ class Recorder:
         while True:
             self._wake.wait(_EVERY if self._reason is None else _RETRY)
             last = self._closing
-            self._step()
+            try:
+                self._step()
+            except Exception as problem:  # a fault of ours: said and tried again, for nobody else sees this thread end
+                self._failed(problem)
             if last:
                 return
 
@@ -177,7 +180,7 @@ class Recorder:
             elif isinstance(item, tuple):
                 free += item
             else:
-                self._unwritten.append(journal.encoded_batch(item))
+                self._encode(item)
         if not self._unwritten:
             return
         try:
@@ -195,6 +198,14 @@ class Recorder:
             self._convert(free[-1])
         if self._good >= self._rotate and not self._full:
             self._start_next()
+
+    def _encode(self, batch: Batch) -> None:
+        try:
+            self._unwritten.append(journal.encoded_batch(batch))
+        except Exception as problem:  # a fault of ours, which must not cost the batches behind it
+            self._failed(problem)
+            with self._lock:
+                self._lose(journal.counted(batch))
 
     def _convert(self, number: int) -> None:
         """In a thread: acknowledgements do not wait for it."""
@@ -214,7 +225,7 @@ class Recorder:
             if self._reason is not None:
                 self._reason, self._changed = None, True
 
-    def _failed(self, problem: OSError) -> None:
+    def _failed(self, problem: Exception) -> None:
         """Takes back what may have been written in part; all of it is tried again in a new file."""
         if self._file is not None:
             with suppress(OSError):
@@ -224,7 +235,7 @@ class Recorder:
             self._file = None
         self.session.failed()
         with self._lock:
-            reason = problem.strerror or str(problem)
+            reason = problem.strerror if isinstance(problem, OSError) and problem.strerror else repr(problem)
             if reason != self._reason:
                 self._reason, self._changed = reason, True
             size = sum(block.size for block in self._unwritten)

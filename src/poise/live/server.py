@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-import gc
 import json
 import signal
-import socket
 import time
 from collections.abc import AsyncIterator, Callable, Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,8 +18,10 @@ from poise.live import frames, http
 from poise.live.access import Access, Gate
 from poise.live.hub import Hub, HubError
 from poise.live.joint import Joint
+from poise.live.listening import Listening, Options
 from poise.live.methods import Choice, described
 from poise.live.session import rebuilt
+from poise.live.settled import Settled
 from poise.live.sockets import DeviceSocket, Viewer, choices
 from poise.version import __version__
 
@@ -41,35 +40,12 @@ DASHBOARD = Path(__file__).parent / "dashboard"
 PHONE = Path(__file__).parent / "phone"
 _HEALTH_EVERY = 1.0  # s
 _FLAGS_EVERY = 0.25  # s that a flag stays in `flags_since`, so that every viewer sees it
-_BACKLOG = 8192
 _HEAD_START = (
-    2.0  # s to load the methods before the first device is served: beside a busy loop it takes several times as long
+    1.5  # s to load the methods before the first device is served: beside a busy loop it takes several times as long
 )
 _LIST_EVERY = 0.2  # s between lists of devices
 _PAST_EVENTS = 50  # that a viewer is told when it comes
 _SLICE = 100  # devices in one message on health: thousands would hold up a tick
-
-
-class ServerError(PoiseError):
-    """Why the server cannot start."""
-
-
-@dataclass
-class Options:
-    """Where a server listens, and for whom."""
-
-    host: str = "127.0.0.1"
-    port: int = 8760
-    tokens: dict[str, Any] = field(default_factory=dict)
-    hosts: tuple[str, ...] = ()
-    certificate: tuple[Path, Path] | None = None
-    """certificate and key, for HTTPS"""
-    phone_token: str = ""
-    """what a phone's page shows; given to whoever may write"""
-    made_token: str = ""
-    """a token that was made up at the start, which nobody knows yet"""
-    own_certificate: bool = False
-    """whether this machine made its certificate itself"""
 
 
 class Server:
@@ -100,6 +76,9 @@ class Server:
         self._warming: set[Choice] = set()
         self.refused = 0
         """packets that no device could take"""
+        self._settled = Settled()
+        self.ended: dict[Source, str] = {}
+        """sources that give nothing any more, each with what went wrong, if anything"""
         self._said: dict[str, object] = {}
         self._failure: BaseException | None = None
         self._tasks: set[asyncio.Task[None]] = set()
@@ -114,7 +93,7 @@ class Server:
         """Serves until :attr:`stopping` is set or the process is told to stop. Raises :class:`ServerError`."""
         from poise.live.serving import serve
 
-        with _listening(self.options) as sockets:
+        with Listening(self.options) as sockets:
             loop = asyncio.get_running_loop()
             for number in (signal.SIGINT, signal.SIGTERM):
                 with suppress(NotImplementedError, RuntimeError, ValueError):
@@ -185,6 +164,7 @@ class Server:
                 )
                 self._changed |= headings != before  # a magnetometer has spoken: zero means something else now
                 self._look_at_sources()
+                self._settled.look(len(self.hub.devices) + len(self.device_sockets) + len(self.viewers))
             if slices:
                 self._say(partial(self.health, slices.pop()))
             await asyncio.sleep(self.hub.pause)
@@ -194,7 +174,7 @@ class Server:
             await asyncio.to_thread(self.hub.watch.warm)
         for choice in self.hub.methods:
             await self._warm(choice)
-        gc.freeze()  # a compiler's many objects stay: to go over them again and again would hold up ticks by 0.1 s
+        self._settled.freeze()  # a compiler's many objects stay
         while (device := self.hub.next_to_restore()) is not None:
             try:
                 streams = await asyncio.to_thread(rebuilt, device)
@@ -224,20 +204,43 @@ class Server:
         if hasattr(source, "tell"):
             source.tell = lambda text: self.hub.event("source", None, text)
         timebase = source.name if getattr(source, "one_clock", False) else ""
+        waits = getattr(source, "can_wait", False)
         try:
             async for arrival in source.arrivals():
                 device = self.hub.devices.get(arrival.device)
                 try:
                     device = self.hub.device(arrival.device, source.name, source.shape)
                     device.timebase = timebase
-                    device.receive(arrival.rows, time.monotonic(), arrival.sequence)
+                    now = time.monotonic()
+                    if waits or device.allowance.grants(len(arrival.rows), now, self.hub.max_rate):
+                        device.receive(arrival.rows, now, arrival.sequence)
+                    else:
+                        self._throttle(device, len(arrival.rows))
                 except PoiseError as problem:
                     self._refused(device, source.name, problem)
-                while device is not None and not device.runs and getattr(source, "can_wait", False):
+                while waits and device is not None and not device.runs:
                     await asyncio.sleep(0.02)  # for the method to be loaded
+            self.ended[source] = ""
             self.hub.event("end", None, f"{source.name} has come to its end")
         except (PoiseError, OSError) as problem:
+            self.ended[source] = str(problem)
             self.hub.event("failed", None, f"{source.name}: {problem}")
+
+    def _throttle(self, device: Device, samples: int) -> None:
+        """Counts what was too much of a source that cannot be cut off; says so at the first and then every 100 000th."""
+        before, device.health.throttled = device.health.throttled, device.health.throttled + samples
+        if not before or before // 100_000 != device.health.throttled // 100_000:
+            text = f"more than {self.hub.max_rate:g} samples a second are not taken; `--max-rate` allows more"
+            self.hub.event("throttled", device, f"{device.name}: {text}")
+
+    def conditions(self) -> list[dict[str, Any]]:
+        """How the sources fare: *ok*, *ended*, *waiting* for one that is away, or *failed* for good, and why."""
+        found = []
+        for source in self.sources:
+            text = self.ended.get(source, getattr(source, "trouble", ""))
+            state = ("failed" if text else "ended") if source in self.ended else "waiting" if text else "ok"
+            found.append({"name": source.name, "state": state, "text": text})
+        return found
 
     def _look_at_sources(self) -> None:
         """Says what is amiss with a source that goes on: nothing else would tell why no device appears."""
@@ -345,6 +348,7 @@ class Server:
             "type": "health",
             "time": time.time(),
             "devices": hub.conditions(devices or hub.shown, now),
+            "sources": self.conditions(),
             "viewers": len(self.viewers),
             "wait_ms": {"p50": round(1e3 * waits.quantile(0.5), 3), "p99": round(1e3 * waits.quantile(0.99), 3)},
             "recording": self.recorder.condition() if self.recorder else None,
@@ -379,33 +383,3 @@ class Server:
                 yield await queue.get()
         finally:
             self.listeners.discard(queue)
-
-
-class _listening:
-    """The listening sockets of *options*, closed at the end. Raises :class:`ServerError` where they cannot be had."""
-
-    def __init__(self, options: Options) -> None:
-        self._options = options
-
-    def __enter__(self) -> list[socket.socket]:
-        host, port = self._options.host, self._options.port
-        try:
-            family, _, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[
-                0
-            ]
-        except (socket.gaierror, OverflowError) as problem:
-            raise ServerError(f"--host {host}: no such address ({problem})") from None
-        self._socket = socket.socket(family, socket.SOCK_STREAM)
-        self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            self._socket.bind(address)
-        except OSError as problem:
-            self._socket.close()
-            reason = "another program listens there; give another --port" if problem.errno in (48, 98) else problem
-            raise ServerError(f"cannot listen on {host} port {port}: {reason}") from None
-        self._socket.listen(_BACKLOG)
-        self._options.port = self._socket.getsockname()[1]
-        return [self._socket]
-
-    def __exit__(self, *_: object) -> None:
-        self._socket.close()

@@ -6,6 +6,7 @@ import fcntl
 import os
 import shutil
 from collections import defaultdict
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
@@ -41,8 +42,8 @@ class Found:
 
     files: int = 0
     samples: int = 0
-    torn: list[str] = field(default_factory=list)
-    """a sentence for each tail that was cut"""
+    damage: list[str] = field(default_factory=list)
+    """a sentence for each tail that was cut, and for what was damaged before it"""
 
 
 class Session:
@@ -143,11 +144,19 @@ class Session:
         """Cuts torn tails off the journal files; what was found in them."""
         for _, path in self.files():
             self.found.files += 1
-            for block in journal.read(path):
-                if isinstance(block, journal.Torn):
-                    os.truncate(path, block.good)
-                    self.found.torn.append(f"{path.name}: a torn tail of {block.torn} bytes was cut off")
+            for _ in self._blocks(path):
+                pass
         return self.found
+
+    def _blocks(self, path: Path) -> Iterator[journal.Block]:
+        """The good blocks of a journal file, whose torn tail is cut off."""
+        for block in journal.read(path):
+            if isinstance(block, journal.Block):
+                yield block
+                continue
+            self.found.damage.append(f"{path.name}: {block.said}")
+            if block.tail:
+                os.truncate(path, block.start)
 
     def resume(self, hub: Hub) -> None:
         """Puts the devices of an interrupted session back into *hub*, where they were: numbers at once, streams by the
@@ -155,22 +164,22 @@ class Session:
         last: dict[str, dict[str, Any]] = {}
         since: dict[str, list[tuple[int, Floats]]] = defaultdict(list)
         for _, path in self.files():
-            for block in journal.read(path):
-                if isinstance(block, journal.Torn):
-                    os.truncate(path, block.good)
-                    text = f"{path.name}: a torn tail of {block.torn} bytes was cut off"
-                    self.found.torn.append(text)
-                    hub.event("torn", None, f"{self.folder.name}/{text}")
-                elif block.kind == journal.CHECKPOINT:
+            for block in self._blocks(path):
+                if block.kind == journal.CHECKPOINT:
                     last[block.head["device"]] = block.head
                     since[block.head["device"]].clear()
-                else:
-                    once = {name: (first, start, stop) for name, first, start, stop, *_ in block.head["spans"]}
-                    for name, (first, start, stop) in once.items():  # not once a method
-                        since[name].append((first, block.rows[start:stop]))
-        for name, head in last.items():
+                    continue
+                once = {name: (first, start, stop) for name, first, start, stop, *_ in block.head["spans"]}
+                for name, (first, start, stop) in once.items():  # not once a method
+                    since[name].append((first, block.rows[start:stop]))
+        for text in self.found.damage:
+            hub.event("damage", None, f"{self.folder.name}/{text}")
+        for name in last | since:
             device = hub.restored(name)
             rows = since[name]
+            head = last.get(
+                name, {"runs": []}
+            )  # its checkpoint was damaged: it goes on as a new device, but for its numbers
             device.next = rows[-1][0] + len(rows[-1][1]) if rows else head["next"]
             device.to_restore = (head, [part for _, part in rows])
         if last:

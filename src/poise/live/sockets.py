@@ -29,7 +29,6 @@ _EVERY_FRAMES, _EVERY_BYTES = 512, 8 << 20  # that may wait for a viewer of ever
 _POLICY, _TRY_LATER = 1008, 1013  # close codes
 _RAW_MOTION = bytes((frames.MOTION,))
 _NOTE_EVERY = 0.5  # s between notes of one device
-_BURST = 1.0  # s of samples at the highest rate that may come at once
 
 
 class DeviceSocket:
@@ -43,7 +42,6 @@ class DeviceSocket:
             server.hub.reshape(self.device, shape)
         self._motion = Motion(self.device, axes, self._event)
         self._noted = 0.0
-        self._allowance, self._filled = _BURST * server.hub.max_rate, time.monotonic()
         self._lock = asyncio.Lock()
         self._news: dict[str, dict[str, Any]] = {}
 
@@ -69,9 +67,8 @@ class DeviceSocket:
                     if self._errors >= _MOST_ERRORS:
                         return await self._close(_POLICY, f"{_MOST_ERRORS} frames that could not be read")
                     continue
-                self._allowance -= new
-                if self._allowance < 0 and await self._too_fast(now):
-                    return None
+                if not device.allowance.grants(new, now, self._server.hub.max_rate):
+                    return await self._too_fast()
         finally:
             device.connected -= 1
             del self._server.device_sockets[self]
@@ -96,18 +93,12 @@ class DeviceSocket:
     def _event(self, kind: str, text: str) -> None:
         self._server.hub.event(kind, self.device, text)
 
-    async def _too_fast(self, now: float) -> bool:
-        """Whether the device sends faster than allowed, for longer than a burst; then its connection is closed."""
-        most = self._server.hub.max_rate
-        self._allowance = min(self._allowance + (now - self._filled) * most, _BURST * most)
-        self._filled = now
-        if self._allowance >= 0:
-            return False
-        text = f"more than {most:g} samples a second; `--max-rate` allows more"
+    async def _too_fast(self) -> None:
+        """The device sends faster than allowed, for longer than a burst: its connection is closed."""
+        text = f"more than {self._server.hub.max_rate:g} samples a second; `--max-rate` allows more"
         self._server.hub.event("throttled", self.device, f"{self.device.name} was cut off: {text}")
         await self.tell(type="error", message=text)
         await self._close(_POLICY, text)
-        return True
 
     async def _tell_recording(self) -> None:
         recorder = self._server.recorder

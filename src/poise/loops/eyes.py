@@ -33,8 +33,7 @@ class Eyes:
     """
 
     def __init__(self, method: str, world: World, corrected: Callable[[Packet], Packet] | None = None) -> None:
-        if method != TRUTH and method not in METHODS:
-            raise MethodError(f"no method {method!r}; there are {', '.join(METHODS)}, and {TRUTH} to compare with")
+        check_method(method)
         self._world, self._corrected = world, corrected
         self._stream: Any = None if method == TRUTH else Stream(METHODS[method]())
 
@@ -52,3 +51,9 @@ class Eyes:
         table = np.full((1, COLUMNS), np.nan)
         table[0, QUAT], table[0, RATE] = truth.quat, truth.rate
         return Attitude(np.array([float(np.asarray(packet.time))]), table, np.zeros(1, np.uint32), "magnetic")
+
+
+def check_method(method: str) -> None:
+    """Raises :class:`MethodError` for a name that is neither a method nor the truth."""
+    if method != TRUTH and method not in METHODS:
+        raise MethodError(f"no method {method!r}; there are {', '.join(METHODS)}, and {TRUTH} to compare with")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import degrees, inf, radians
 
@@ -76,10 +77,12 @@ def slewing(
     control: AttitudeControl = CONTROL,
     slew: Slew | None = SLEW,
     calibrated: bool = True,
+    look: Callable[[float, AttitudeBody], None] | None = None,
 ) -> SlewingRun:
     """Send a body to *turns* attitudes, each 120° about a random axis from the one before, by what *method* sees.
 
     Unless *calibrated* is False, the device is commissioned before; the method starts anew after that, and time with it.
+    *look* is called after every sample with the time (s) and the world: for photographs.
     """
     world = AttitudeBody(seed=seed, sensor=sensor, rate=200.0, hold=REST)
     calibration = commissioned(world, control) if calibrated else None
@@ -101,6 +104,8 @@ def slewing(
             torque = answer if world.released else np.zeros(3)
             said = seen.attitude.quat[0]
         true = world.truth.quat
+        if look is not None:
+            look(world.time - began, world)
         rows.append([world.time - began, _angle(goal, true), _angle(said, true), *torque])
     table = np.array(rows)
     time, error, estimate = table[:, 0], table[:, 1], table[:, 2]

@@ -319,7 +319,6 @@ else:
 # ---------------------------------------------------------------------------------------------------------------------
 # Arrays in a state: numba counts the owners of each at every branch and copy of the state, which cost 100 ns a sample.
 # A loop works on views that nobody owns while the memory holds the arrays themselves. A method may make an array anew, but
-# not move one to another field. A method may make an array anew, but
 # not move one to another field.
 
 

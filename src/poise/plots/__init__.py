@@ -9,6 +9,7 @@ from poise.plots.inline import inline_svg
 from poise.plots.learning import learning_figure
 from poise.plots.pictures import save_picture
 from poise.plots.recording import recording_figure
+from poise.plots.slewing import slewing_figure
 from poise.plots.style import FORMATS, POINTS, save_figure
 from poise.plots.tipping import tip_over_figure
 
@@ -24,5 +25,6 @@ __all__ = [
     "recording_figure",
     "save_figure",
     "save_picture",
+    "slewing_figure",
     "tip_over_figure",
 ]

@@ -69,6 +69,8 @@ def config_of(found: Mapping[str, Any], folder: Path = Path()) -> Config:
     for each in responders:
         for other in each.if_failed:
             _one_of(f"responders.{each.name}.if_failed", other, names)
+            if other == each.name:
+                raise ResponseError(f"responders.{each.name}.if_failed: {other!r} is itself; name another one")
     stages = _stages(found.get("stages"), {each.name: each for each in responders})
     _all_used(responders, stages)
     unknown = found.get("unknown", "warn")
