@@ -59,6 +59,7 @@ from poise.estimators.self_calibrating.model import (
     three,
     vector,
 )
+from poise.estimators.self_calibrating.recall import begin_memory, remember
 from poise.estimators.self_calibrating.watch import (
     contradicted,
     doubt_bias,
@@ -85,7 +86,7 @@ class State(NamedTuple):
     mean_acc: Vec3
     still: float  # s
     begun: bool  # a block has been closed
-    P: Floats  # (35, 28): the errors' covariance and, below it, the rest of the memory; see model.py
+    P: Floats  # (37, 28): the errors' covariance and, below it, the rest of the memory; see model.py
 
 
 class SelfCalibrating(NamedTuple):
@@ -415,6 +416,10 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         wander,
     )
     put_sensor(P, after)
+    if state.begun:
+        remember(P, after, T)
+    else:
+        begin_memory(P, after)
     if bias_changed:  # 9. What was thought to be known of it is not
         doubt_bias(method, P)
     enter_block(P, s, ANOTHER_BIAS if bias_changed else (BEGUN_ANEW if anew else GOES_ON))
