@@ -394,7 +394,9 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         else:
             share = s.mag_time / (method.spread_time + s.mag_time)
             spread += share * (min(dot(e, e) / 3.0, 9.0 * spread) - spread)
-            variance = (method.field_time * spread + method.block * method.mag_rate_noise**2 * rate_square) / s.mag_time
+            beyond_own = max(dot(e, e) - field.y * field.y * float(P[TURN + 2, TURN + 2]), 0.0)
+            own = max(spread, beyond_own / 27.0)
+            variance = (method.field_time * own + method.block * method.mag_rate_noise**2 * rate_square) / s.mag_time
             all_axes = P[0, 0] + P[1, 1] > 2.0 * method.sure_tilt**2
             correct_field(P, e, field, (1.0 / s.mags) * s.to_iron, (1.0 / s.mags) * s.to_delay, all_axes, variance)
     symmetrise(P)
