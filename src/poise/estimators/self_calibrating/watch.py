@@ -26,6 +26,7 @@ _SAME, _STEADY = 0.1, 0.12  # lengths that its north and up may be off, and that
 _UNDISTURBED = 0.07  # lengths that dip and length may be off, for four times as long
 _WOULD_SHOW, _SHOWS = 0.05, 0.3  # lengths: the field would have moved by as much, and moved by that share of it
 _SLOW = 25  # and the mean of the horizontal specific force over twice the time (2)
+_WATCHED = 27  # and for how many seconds: a mean of less than watch_time is that of one movement
 _OF_MOTION, _OF_LONGER = 0.12, 0.04  # of the motion's root mean square may be left in the mean, and over twice the time
 
 
@@ -33,10 +34,12 @@ _OF_MOTION, _OF_LONGER = 0.12, 0.04  # of the motion's root mean square may be l
 def contradicted(method: SelfCalibrating, P: Floats, s: Sums) -> bool:
     """Takes the block into the means, and says whether the tilt cannot be right (eq. 22)."""
     P[SUMS + 2, _UNSETTLED] = max(float(P[SUMS + 2, _UNSETTLED]) - s.time, 0.0)
-    if s.force_time == 0.0:
+    row, share = SUMS + 2, s.time / (method.watch_time + s.time)
+    if s.force_time == 0.0:  # what was seen before says less and less
+        for k in (_MEAN, _MEAN + 1, _SLOW, _SLOW + 1):
+            P[row, k] -= share * P[row, k]
         return False
-    share, per_time = s.time / (method.watch_time + s.time), 1.0 / (s.force_time * method.gravity)
-    row = SUMS + 2
+    per_time = 1.0 / (s.force_time * method.gravity)
     x = float(P[row, _MEAN]) + share * (s.force.x * per_time - float(P[row, _MEAN]))
     y = float(P[row, _MEAN + 1]) + share * (s.force.y * per_time - float(P[row, _MEAN + 1]))
     square = s.excess_square / (s.samples * method.gravity * method.gravity)
@@ -46,6 +49,9 @@ def contradicted(method: SelfCalibrating, P: Floats, s: Sums) -> bool:
     longer_x = float(P[row, _SLOW]) + share * (s.force.x * per_time - float(P[row, _SLOW]))
     longer_y = float(P[row, _SLOW + 1]) + share * (s.force.y * per_time - float(P[row, _SLOW + 1]))
     P[row, _SLOW], P[row, _SLOW + 1] = longer_x, longer_y
+    P[row, _WATCHED] = min(float(P[row, _WATCHED]) + s.time, 2.0 * method.watch_time)
+    if P[row, _WATCHED] < method.watch_time:
+        return False
     off = x * x + y * y
     motion = sqrt(max(square - off, 0.0))
     least, least_longer = method.watch_tilt + _OF_MOTION * motion, method.watch_tilt + _OF_LONGER * motion
@@ -131,4 +137,4 @@ def forget_watch(P: Floats) -> None:
     put(P, SUMS + 2, _SEEN, ZERO)
     put(P, SUMS + 2, _FIELD, ZERO)
     P[SUMS + 2, _FIELD + 3], P[SUMS + 2, _FIELD + 4] = 0.0, 0.0
-    P[SUMS + 2, _SLOW], P[SUMS + 2, _SLOW + 1] = 0.0, 0.0
+    P[SUMS + 2, _SLOW], P[SUMS + 2, _SLOW + 1], P[SUMS + 2, _WATCHED] = 0.0, 0.0, 0.0
