@@ -239,6 +239,17 @@ def test_spikes_are_left_out(name: str, size: float, flag: Flag) -> None:
     assert np.median(away_deg(attitude)) < 0.5
 
 
+@pytest.mark.parametrize(
+    ("name", "size", "flag"), [("gyr", 5.0, Flag.GYR_IGNORED), ("acc", 50.0, Flag.ACC_IGNORED)]
+)
+def test_a_second_spike_in_a_row_is_one_too(name: str, size: float, flag: Flag) -> None:
+    """That a sample is late is no reason to expect more of it: what takes a blow takes one."""
+    values = getattr(clean(), name).copy()
+    values[AT] += [size, 0.0, 0.0]
+    values[AT + 1] += [0.0, size, 0.0]
+    np.testing.assert_array_equal(flagged(poise.estimate(METHOD, changed(**{name: values})), flag), [AT, AT + 1])
+
+
 def test_a_blow_that_both_sensors_feel_is_no_spike() -> None:
     gyr, acc = clean().gyr.copy(), clean().acc.copy()
     gyr[AT] += [5.0, 0.0, 0.0]
@@ -323,6 +334,17 @@ def test_a_range_smaller_than_data_sheets_have_is_learned_from_what_chance_would
     assert set(found) <= set(hit)
     assert len(hit) - len(found) <= 8, "how rarely a component repeats is not known early on"
     assert not len(flagged(attitude, Flag.ACC_MISSING)), "a clipped force is used: it is nearer than none"
+
+
+def test_sigma_grows_while_the_specific_force_is_clipped() -> None:
+    shaken, method = shaken_in_steps(0.005, 0.001), poise.TwoStage()
+    clipped = np.clip(shaken.acc, -12.5, 12.5)
+    attitude = poise.estimate(method, replace(shaken, acc=clipped))
+    found = flagged(attitude, Flag.ACC_CLIPPED)
+    grown = np.linalg.norm(attitude.sigma, axis=1) / np.linalg.norm(poise.estimate(method, shaken).sigma, axis=1)
+    assert len(found) > 50
+    assert np.median(grown[found]) > 1.005
+    assert attitude.valid[found].all(), "what it hides is small"
 
 
 def test_a_coarse_sensor_that_repeats_is_not_clipped() -> None:

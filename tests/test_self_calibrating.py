@@ -206,6 +206,36 @@ def test_a_bias_that_changes_in_motion_is_learned_anew(name: str, axis: tuple[fl
     assert np.degrees(np.nanmax(errors.total[at + 60 * 286 :])) < 12.0  # it was 60 to 150
 
 
+def test_what_the_error_of_a_bias_has_made_of_the_scale_is_taken_back() -> None:
+    recording = trial("15")
+    at = int(73.0 * recording.rate_hz)
+    step = np.radians(2.0) * np.array([-0.42, -0.42, 0.8]) * (np.arange(len(recording)) >= at)[:, None]
+    attitude, clean = (poise.estimate(FLAGSHIP, r) for r in (replace(recording, gyr=recording.gyr + step), recording))
+    (scale, _), (expected, _) = learned(attitude, "gyr_scale"), learned(clean, "gyr_scale")
+    np.testing.assert_allclose(scale, expected, atol=4e-3)  # it was 1.1e-2 off, at a sigma of 3e-3
+    late = recording.moving & (recording.time > recording.time[-1] - 60.0)
+    error = np.degrees(poise.evaluate(attitude, recording).total[late])
+    assert np.sqrt(np.nanmean(error**2)) < 6.0  # it was 11
+
+
+def test_one_movement_after_a_restart_is_no_reason_to_doubt_the_bias() -> None:
+    recording = trial("15")
+    gyr = recording.gyr.copy()
+    gyr[(recording.time >= 60.158) & (recording.time < 70.158)] = np.nan
+    attitude = poise.estimate(FLAGSHIP, replace(recording, gyr=gyr))
+    assert not unsettled(attitude)[recording.time > 74.0].any()
+
+
+def test_a_magnet_of_the_fields_strength_hardly_turns_the_heading() -> None:
+    recording = trial("29")
+    at = (recording.time >= 60.0) & (recording.time < 90.0)
+    clean = poise.estimate(FLAGSHIP, recording)
+    for axis in np.eye(3):
+        attitude = poise.estimate(FLAGSHIP, replace(recording, mag=recording.mag + 30.0 * at[:, None] * axis))
+        turn = arrays.multiply(attitude.quat, arrays.conjugate(clean.quat))[at]
+        assert np.degrees(2.0 * np.abs(np.arctan2(turn[:, 3], turn[:, 0]))).max() < 10.0
+
+
 def test_a_bias_that_changes_at_rest_is_told_by_the_field_that_stands_still() -> None:
     recording = trial("09")
     rest = int(np.argmax(recording.moving))

@@ -188,6 +188,9 @@ def examined(guard: Guard, state: State, sample: Sample) -> Look:
             made_up = 0.0 < state.gyr_absent <= 0.25 * guard.gap
             variance = doubt * doubt - (0.0 if made_up else min(state.doubt, doubt) ** 2)
         lost = lost or doubt > guard.lost_doubt
+    elif acc_verdict == CLIPPED:  # a force that is too small by as much tilts a method that settles in that time
+        tilt = 0.25 * acc.most * dt / (guard.gravity * guard.settle_time)
+        doubt = max(doubt, min(doubt + tilt, guard.valid_doubt))
     elif doubt > 0.0 and has_acc:
         doubt = doubt * guard.settle_time / (guard.settle_time + dt) if doubt > _SURE else 0.0
     lost = lost or state.pace.held > guard.longest_disorder

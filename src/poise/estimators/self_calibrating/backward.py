@@ -127,6 +127,11 @@ def back(log: Floats, future: Floats, corrections: Floats) -> None:
                         future[i, BIAS + k] = 0.0
                         if i < SIZE:
                             future[BIAS + k, i] = 0.0
+                if log[at + 1, ONE] == ANOTHER_BIAS:  # and of A, which is that of before
+                    for k in range(9):
+                        future[i, SCALE + k] = 0.0
+                        if i < SIZE:
+                            future[SCALE + k, i] = 0.0
         else:
             for m in range(int(log[at, ONE]) - 1, -1, -1):
                 back_through_correction(future, log, at + CORRECTIONS + 2 * m)

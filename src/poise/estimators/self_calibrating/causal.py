@@ -59,6 +59,7 @@ from poise.estimators.self_calibrating.model import (
     three,
     vector,
 )
+from poise.estimators.self_calibrating.recall import begin_memory, remember
 from poise.estimators.self_calibrating.watch import (
     contradicted,
     doubt_bias,
@@ -85,7 +86,7 @@ class State(NamedTuple):
     mean_acc: Vec3
     still: float  # s
     begun: bool  # a block has been closed
-    P: Floats  # (35, 28): the errors' covariance and, below it, the rest of the memory; see model.py
+    P: Floats  # (37, 28): the errors' covariance and, below it, the rest of the memory; see model.py
 
 
 class SelfCalibrating(NamedTuple):
@@ -393,7 +394,9 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         else:
             share = s.mag_time / (method.spread_time + s.mag_time)
             spread += share * (min(dot(e, e) / 3.0, 9.0 * spread) - spread)
-            variance = (method.field_time * spread + method.block * method.mag_rate_noise**2 * rate_square) / s.mag_time
+            beyond_own = max(dot(e, e) - field.y * field.y * float(P[TURN + 2, TURN + 2]), 0.0)
+            own = max(spread, beyond_own / 27.0)
+            variance = (method.field_time * own + method.block * method.mag_rate_noise**2 * rate_square) / s.mag_time
             all_axes = P[0, 0] + P[1, 1] > 2.0 * method.sure_tilt**2
             correct_field(P, e, field, (1.0 / s.mags) * s.to_iron, (1.0 / s.mags) * s.to_delay, all_axes, variance)
     symmetrise(P)
@@ -415,6 +418,10 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         wander,
     )
     put_sensor(P, after)
+    if state.begun:
+        remember(P, after, T)
+    else:
+        begin_memory(P, after)
     if bias_changed:  # 9. What was thought to be known of it is not
         doubt_bias(method, P)
     enter_block(P, s, ANOTHER_BIAS if bias_changed else (BEGUN_ANEW if anew else GOES_ON))

@@ -24,7 +24,7 @@ TURN, BIAS, SCALE, VELOCITY, FIELD, IRON, MAG_DELAY, ACC_DELAY, SIZE = 0, 3, 6, 
 # One table is the memory: P in its first 25 rows, then these. A NamedTuple of as many numbers would be copied at every step.
 H, X, ROOM = 25, 26, 27  # of a correction: what is measured of the errors, their estimate, P h
 TURNED = 28  # three rows: S_A = Σ R[:, i] g_j dt, column 3 i + j
-SUMS, SENSOR, ROWS, COLUMNS = 31, 34, 35, 28
+SUMS, SENSOR, KEPT, ROWS, COLUMNS = 31, 34, 35, 37, 28  # two rows keep what was known before: recall.py
 # Behind that, where a smoother asked for it, one entry a block: P's rows of ε and bias after the corrections, what was
 # injected, what the block added up, and each correction's h and P h. Column 25 of the entry's rows holds single numbers.
 ENTRIES, ENTRY = ROWS, 28

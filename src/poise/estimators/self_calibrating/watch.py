@@ -10,6 +10,7 @@ from math import atan2, radians, sqrt
 from typing import TYPE_CHECKING
 
 from poise.estimators.self_calibrating.model import BIAS, SUMS, TURN, VELOCITY, Floats, Sums, forget, put, vector
+from poise.estimators.self_calibrating.recall import recall
 from poise.math.compiled import compiled
 from poise.math.vectors import ZERO, Vec3, cross, dot
 
@@ -24,25 +25,37 @@ _SURE_TILT = radians(3.0)  # after which it is settled all the same
 _SAME, _STEADY = 0.1, 0.12  # lengths that its north and up may be off, and that it may stray from its mean
 _UNDISTURBED = 0.07  # lengths that dip and length may be off, for four times as long
 _WOULD_SHOW, _SHOWS = 0.05, 0.3  # lengths: the field would have moved by as much, and moved by that share of it
-_OF_MOTION = 0.12  # of the motion's root mean square may be left in the mean
+_SLOW = 25  # and the mean of the horizontal specific force over twice the time (2)
+_WATCHED = 27  # and for how many seconds: a mean of less than watch_time is that of one movement
+_OF_MOTION, _OF_LONGER = 0.12, 0.04  # of the motion's root mean square may be left in the mean, and over twice the time
 
 
 @compiled
 def contradicted(method: SelfCalibrating, P: Floats, s: Sums) -> bool:
     """Takes the block into the means, and says whether the tilt cannot be right (eq. 22)."""
     P[SUMS + 2, _UNSETTLED] = max(float(P[SUMS + 2, _UNSETTLED]) - s.time, 0.0)
-    if s.force_time == 0.0:
+    row, share = SUMS + 2, s.time / (method.watch_time + s.time)
+    if s.force_time == 0.0:  # what was seen before says less and less
+        for k in (_MEAN, _MEAN + 1, _SLOW, _SLOW + 1):
+            P[row, k] -= share * P[row, k]
         return False
-    share, per_time = s.time / (method.watch_time + s.time), 1.0 / (s.force_time * method.gravity)
-    row = SUMS + 2
+    per_time = 1.0 / (s.force_time * method.gravity)
     x = float(P[row, _MEAN]) + share * (s.force.x * per_time - float(P[row, _MEAN]))
     y = float(P[row, _MEAN + 1]) + share * (s.force.y * per_time - float(P[row, _MEAN + 1]))
     square = s.excess_square / (s.samples * method.gravity * method.gravity)
     square = float(P[row, _MEAN + 2]) + share * (square - float(P[row, _MEAN + 2]))
     P[row, _MEAN], P[row, _MEAN + 1], P[row, _MEAN + 2] = x, y, square
+    share = s.time / (2.0 * method.watch_time + s.time)
+    longer_x = float(P[row, _SLOW]) + share * (s.force.x * per_time - float(P[row, _SLOW]))
+    longer_y = float(P[row, _SLOW + 1]) + share * (s.force.y * per_time - float(P[row, _SLOW + 1]))
+    P[row, _SLOW], P[row, _SLOW + 1] = longer_x, longer_y
+    P[row, _WATCHED] = min(float(P[row, _WATCHED]) + s.time, 2.0 * method.watch_time)
+    if P[row, _WATCHED] < method.watch_time:
+        return False
     off = x * x + y * y
-    least = method.watch_tilt + _OF_MOTION * sqrt(max(square - off, 0.0))
-    return off > least * least
+    motion = sqrt(max(square - off, 0.0))
+    least, least_longer = method.watch_tilt + _OF_MOTION * motion, method.watch_tilt + _OF_LONGER * motion
+    return off > least * least or longer_x * longer_x + longer_y * longer_y > least_longer * least_longer
 
 
 @compiled
@@ -106,6 +119,7 @@ def doubt_bias(method: SelfCalibrating, P: Floats) -> None:
     heading = float(P[TURN + 2, TURN + 2]) + 9.0 * max(off, method.initial_tilt**2) + away * away
     forget(P, TURN + 2, 1, min(heading, method.initial_heading**2))
     forget(P, VELOCITY, 3, 1.0)
+    recall(P, 0.5 * float(P[row, _FIELD + 4]))
     forget_watch(P)
     P[row, _UNSETTLED] = method.watch_time
 
@@ -123,3 +137,4 @@ def forget_watch(P: Floats) -> None:
     put(P, SUMS + 2, _SEEN, ZERO)
     put(P, SUMS + 2, _FIELD, ZERO)
     P[SUMS + 2, _FIELD + 3], P[SUMS + 2, _FIELD + 4] = 0.0, 0.0
+    P[SUMS + 2, _SLOW], P[SUMS + 2, _SLOW + 1], P[SUMS + 2, _WATCHED] = 0.0, 0.0, 0.0

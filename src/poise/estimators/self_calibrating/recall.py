@@ -1,0 +1,66 @@
+"""What was known of the sensor half a minute to a minute ago, for when everything learned since turns out to be doubtful.
+
+While a bias is wrong and not yet doubted, its error goes into what it can pass for: the gyroscope's scale, the spread of the
+field, the strays of the velocity. Eq. 25 of ``docs/methods/self-calibrating.md``.
+"""
+
+from __future__ import annotations
+
+from poise.estimators.self_calibrating.model import (
+    KEPT,
+    SCALE,
+    Floats,
+    Sensor,
+    forget,
+    put_sensor,
+    put_three,
+    sensor_of,
+    three,
+)
+from poise.math.compiled import compiled
+
+_EVERY = 30.0  # s from one to the next: the older of two is 30 to 60 s old
+_VARIANCES, _SPREAD, _WANDER, _AGE = 9, 18, 19, 20  # where, in a row that begins with A
+
+
+@compiled
+def remember(P: Floats, known: Sensor, time: float) -> None:
+    """*time* s later: another memory where the last one is old."""
+    P[KEPT, _AGE] += time
+    if P[KEPT, _AGE] >= _EVERY:
+        for j in range(_AGE):
+            P[KEPT + 1, j] = P[KEPT, j]
+        _take(P, known)
+
+
+@compiled
+def begin_memory(P: Floats, known: Sensor) -> None:
+    """There is nothing older than *known*."""
+    _take(P, known)
+    for j in range(_AGE):
+        P[KEPT + 1, j] = P[KEPT, j]
+
+
+@compiled
+def recall(P: Floats, undisturbed: float) -> None:
+    """Goes back to the older memory; *undisturbed* is the mean square that the field has strayed whatever the heading is."""
+    known = sensor_of(P)
+    row = KEPT + 1
+    spread = min(known.spread, max(float(P[row, _SPREAD]), undisturbed))
+    wander = min(known.wander, float(P[row, _WANDER]))
+    known = Sensor(
+        three(P, row, 0), known.velocity, known.field, known.iron, known.mag_delay, known.acc_delay, known.length,
+        spread, wander,
+    )  # fmt: skip
+    put_sensor(P, known)
+    for k in range(9):
+        forget(P, SCALE + k, 1, float(P[row, _VARIANCES + k]))
+    begin_memory(P, known)
+
+
+@compiled
+def _take(P: Floats, known: Sensor) -> None:
+    put_three(P, KEPT, 0, known.scale)
+    for k in range(9):
+        P[KEPT, _VARIANCES + k] = P[SCALE + k, SCALE + k]
+    P[KEPT, _SPREAD], P[KEPT, _WANDER], P[KEPT, _AGE] = known.spread, known.wander, 0.0
