@@ -239,9 +239,7 @@ def test_spikes_are_left_out(name: str, size: float, flag: Flag) -> None:
     assert np.median(away_deg(attitude)) < 0.5
 
 
-@pytest.mark.parametrize(
-    ("name", "size", "flag"), [("gyr", 5.0, Flag.GYR_IGNORED), ("acc", 50.0, Flag.ACC_IGNORED)]
-)
+@pytest.mark.parametrize(("name", "size", "flag"), [("gyr", 5.0, Flag.GYR_IGNORED), ("acc", 50.0, Flag.ACC_IGNORED)])
 def test_a_second_spike_in_a_row_is_one_too(name: str, size: float, flag: Flag) -> None:
     """That a sample is late is no reason to expect more of it: what takes a blow takes one."""
     values = getattr(clean(), name).copy()

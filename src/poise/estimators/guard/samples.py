@@ -101,9 +101,7 @@ def taken(channel: Channel, value: Vec3, changed: float, dt: float, still: bool)
 def jumped(channel: Channel, changed: float, age: float, usual_step: float, limits: Limits) -> bool:
     """Whether a sample is further from the last one than eight times what is usual over that time, and than takes a blow."""
     rows = max(age / usual_step, 1.0) if usual_step > 0.0 else 1.0
-    return (
-        changed > _JUMP * channel.change * rows * rows + limits.jump * limits.jump and age + channel.same <= _SLOWEST
-    )
+    return changed > _JUMP * channel.change * rows * rows + limits.jump * limits.jump and age + channel.same <= _SLOWEST
 
 
 @compiled
