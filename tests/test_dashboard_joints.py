@@ -60,7 +60,7 @@ def test_a_bent_joint_has_its_angle_on_its_tile_and_on_its_page(browser: Any) ->
             tile = page.locator(".tile", has_text="knee")
             tile.get_by_text("Angle").wait_for()
             shown.waits_for(
-                "/angle (39|40|41) degrees/.test(document.querySelector('.tile[aria-label^=knee]').ariaLabel)"
+                "/angle (39|40|41) degrees/.test(document.querySelector('.tile[aria-label^=knee]')?.ariaLabel)"
             )
             assert "Heading" not in tile.inner_text() and "Tilt" not in tile.inner_text()
             tile.click()
