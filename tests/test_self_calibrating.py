@@ -18,6 +18,7 @@ from poise.cli import run
 from poise.data.flags import Flag
 from poise.data.packet import Packet
 from poise.errors import MethodError
+from poise.estimators.loop import state_of
 from poise.estimators.self_calibrating.backward import back
 from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
@@ -33,6 +34,8 @@ from poise.estimators.self_calibrating.model import (
     SIZE,
     TURN,
     VELOCITY,
+    put_sensor,
+    sensor_of,
 )
 from poise.formats import read_attitude
 from poise.math import arrays
@@ -159,6 +162,18 @@ def test_sigma_is_never_less_than_what_no_future_can_tell() -> None:
 
 
 # -- restart ----------------------------------------------------------------------------------------------------------
+
+
+def test_the_velocity_that_it_believes_in_is_bounded() -> None:
+    """What it follows less strays more: without a bound the accelerometer's weight would fall without an end."""
+    recording = made(duration=20.0)
+    stream = poise.Stream(FLAGSHIP, guard=None)
+    for i, row in enumerate(zip(recording.time, recording.gyr, recording.acc, recording.mag, strict=True)):
+        stream.update(Packet(*row))
+        if i == 1000:
+            P = state_of(stream._memory).P
+            put_sensor(P, sensor_of(P)._replace(wander=100.0))
+    assert sensor_of(state_of(stream._memory).P).wander <= FLAGSHIP.fastest**2
 
 
 def test_a_restart_keeps_what_was_learned() -> None:
