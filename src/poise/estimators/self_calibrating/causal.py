@@ -101,6 +101,7 @@ class SelfCalibrating(NamedTuple):
     motion_noise: Annotated[float, "√s", "κ: noise per specific force beyond gravity", (0.0, 1e3)] = 0.01
     speed: Annotated[float, "m/s·√s", "how far the pseudo-velocity strays from 0, over one second", (1e-6, 1e6)] = 0.2
     speed_time: Annotated[float, "s", "how long a velocity lasts, that it has in motion", (0.0, 1e6)] = 0.4
+    fastest: Annotated[float, "m/s", "largest velocity that is believed to last, RMS of an axis", (1e-3, 1e6)] = 2.0
     field_time: Annotated[float, "s", "how long an error of the field lasts", (1e-3, 1e6)] = 2.5
     spread_time: Annotated[float, "s", "over which errors of the field, and velocities, are averaged", (1e-3, 1e6)] = (
         10.0
@@ -365,6 +366,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         else:
             share, usual = T / (method.spread_time + T), wander + method.speed**2
             wander += share * (min(dot(v, v) / 3.0, 9.0 * usual) - wander)
+            wander = min(wander, method.fastest**2)  # what it follows less it strays from more
             variance = (method.speed**2 + method.speed_time * wander) / s.force_time
         correct_one(P, VELOCITY, -v.x, variance)
         correct_one(P, VELOCITY + 1, -v.y, variance)
