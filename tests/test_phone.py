@@ -174,6 +174,23 @@ def test_a_phone_that_shows_the_dashboard_gets_to_its_page_by_a_tap(browser: Any
         context.close()
 
 
+def test_a_start_tapped_before_the_page_is_ready_is_not_lost(browser: Any) -> None:
+    with serving() as running:
+        context = browser.new_context(viewport={"width": 390, "height": 844})
+        page = context.new_page()
+        held: list[Any] = []
+        page.route("**/phone.js", lambda each: held.append(each))
+        page.goto(f"http://{running.address}/phone", wait_until="commit")
+        page.fill("#name", "early")
+        assert page.locator("#start").is_disabled()  # or the browser would send the form itself, and the page with it
+        while not held:
+            page.wait_for_timeout(20)
+        held[0].continue_()
+        begin(page)
+        wait_for(lambda: "early" in running.hub.devices)
+        context.close()
+
+
 def test_cut_connections_lose_nothing(browser: Any, motion: Any) -> None:
     recording, truth = motion
     rows = events(recording, truth, 1.0, (2, 0, 1))

@@ -1,12 +1,13 @@
-// Views on the stage: the body of a device at the instant shown.
+// The body of one device at the instant shown, large.
 
+import type * as THREE from "three";
 import { AT, type Shape } from "./protocol";
 import type { Playhead } from "./playhead";
 import { Scene, type Pose } from "./scene";
-import type { View } from "./stage";
+import type { Area, View } from "./stage";
 import type { Store, Track } from "./store";
 
-function poseOf(store: Store, track: Track, time: number, following: boolean): Pose {
+export function poseOf(store: Store, track: Track, time: number, following: boolean): Pose {
   const { ring } = track;
   const k = following ? ring.length - 1 : ring.find(time);
   if (k < 0) return { quat: [NaN, NaN, NaN, NaN], sequence: -1, valid: false, sigmaHeading: NaN, colour: track.colour };
@@ -28,16 +29,30 @@ export class BodyView implements View {
     readonly id: string,
     readonly element: HTMLElement,
     shape: Shape,
-    private rich: boolean,
   ) {
-    this.scene = new Scene(shape, rich);
-    if (rich) this.turnable();
+    this.scene = new Scene(shape);
+    this.turnable();
+  }
+
+  get elements(): Iterable<HTMLElement> {
+    return [this.element];
   }
 
   update(): void {
-    const running = this.store.tracksOf(this.id).filter((track) => track.running);
-    const shown = this.rich ? running : running.slice(0, 1);
+    const shown = this.store.tracksOf(this.id).filter((track) => track.running);
     this.scene.pose(shown.map((track) => poseOf(this.store, track, this.playhead.time, this.playhead.following)));
+  }
+
+  draw(renderer: THREE.WebGLRenderer, boxes: Map<HTMLElement, DOMRect>, { left, top, height }: Area): void {
+    const box = boxes.get(this.element);
+    if (!box) return;
+    const [x, y] = [box.left - left, box.top - top];
+    const [from, to] = [Math.max(0, y), Math.min(height, y + box.height)];
+    if (to <= from) return;
+    this.scene.look(box.width / box.height);
+    renderer.setViewport(x, height - y - box.height, box.width, box.height);
+    renderer.setScissor(x, height - to, box.width, to - from);
+    renderer.render(this.scene.scene, this.scene.camera);
   }
 
   /** Drag or arrow keys turn the view; the body stays where it is. */

@@ -39,7 +39,7 @@ export class Detail {
     this.link = new Link(store, device);
     this.events = new Events(store, device.id);
     this.body.setAttribute("aria-label", `${device.id}: ${joint ? "how it stands seen from its base" : "its body over the ground, north marked"}. Arrow keys turn the view.`);
-    this.view = new BodyView(store, playhead, device.id, this.body, device.shape, true);
+    this.view = new BodyView(store, playhead, device.id, this.body, device.shape);
     this.forward = h("button", { onclick: () => void this.reset() }, joint ? "Both point the same way" : "This way is forward");
     this.forward.title = joint ? `Sets the headings of ${device.segment} and ${device.base} to 0° where their y axes point now` : "Sets the heading to 0° where its y axis points now";
     this.card = h("section", { class: "card", "aria-label": "Attitude" }, this.body, this.readout.element, source.live && h("div", { class: "actions" }, this.forward, this.answer));

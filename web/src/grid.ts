@@ -1,12 +1,13 @@
 // All devices, a tile each.
 
 import { angles, fixed } from "./attitude";
-import { BodyView } from "./bodies";
+import { poseOf } from "./bodies";
+import type { Crowd } from "./crowd";
 import { h, say } from "./dom";
 import type { Playhead } from "./playhead";
 import { ALARMING } from "./protocol";
 import type { DeviceInfo } from "./protocol";
-import type { Drawn } from "./scene";
+import type { Drawn, Pose } from "./scene";
 import type { Stage } from "./stage";
 import type { Store } from "./store";
 import { STATES, tipWord } from "./words";
@@ -15,8 +16,8 @@ const TEXT_EVERY = 200; // ms
 
 interface Tile {
   element: HTMLAnchorElement;
-  view: BodyView;
-  shape: string;
+  body: HTMLElement;
+  device: DeviceInfo;
   /** heading and tilt, or of a joint angle and turn */
   first: HTMLElement;
   second: HTMLElement;
@@ -37,17 +38,22 @@ export class Grid {
       const tile = [...this.tiles.values()].find((each) => each.element === target);
       if (isIntersecting) this.visible.add(target);
       else this.visible.delete(target);
-      if (tile) this.stage[isIntersecting ? "add" : "remove"](tile.view);
+      if (!tile) continue;
+      if (isIntersecting) this.crowd.add(tile.body, tile.device.shape, () => this.pose(tile));
+      else this.crowd.remove(tile.body);
+      this.stage.dirty = true;
     }
   }, { rootMargin: "80px" });
 
-  constructor(private store: Store, private playhead: Playhead, private stage: Stage) {
+  constructor(private store: Store, private playhead: Playhead, private stage: Stage, private crowd: Crowd) {
+    stage.add(this.crowd);
     this.sync();
   }
 
   destroy(): void {
     this.watcher.disconnect();
-    for (const { view } of this.tiles.values()) this.stage.remove(view);
+    this.stage.remove(this.crowd);
+    this.crowd.clear();
   }
 
   /** Tiles for the devices that there are now. */
@@ -55,9 +61,9 @@ export class Grid {
     const devices = [...this.store.devices.values()].sort((a, b) => a.id.localeCompare(b.id, "en", { numeric: true }));
     this.element.classList.toggle("many", devices.length > 8);
     for (const [id, tile] of this.tiles) {
-      if (this.store.devices.get(id)?.shape === tile.shape) continue;
+      if (this.store.devices.get(id)?.shape === tile.device.shape) continue;
       this.watcher.unobserve(tile.element);
-      this.stage.remove(tile.view);
+      this.crowd.remove(tile.body);
       tile.element.parentElement?.remove();
       this.tiles.delete(id);
     }
@@ -82,11 +88,17 @@ export class Grid {
     );
     h("div", { role: "listitem" }, element);
     this.watcher.observe(element);
-    return { element, view: new BodyView(this.store, this.playhead, device.id, body, device.shape, false), shape: device.shape, first, second, state };
+    return { element, body, device, first, second, state };
+  }
+
+  private pose({ device }: Tile): Pose | undefined {
+    const track = this.store.tracksOf(device.id).find((each) => each.running);
+    return track && poseOf(this.store, track, this.playhead.time, this.playhead.following);
   }
 
   drawn(id: string): Drawn | null {
-    return this.tiles.get(id)?.view.scene.drawn() ?? null;
+    const tile = this.tiles.get(id);
+    return tile ? this.crowd.drawn(tile.body) : null;
   }
 
   update(now: number): void {
@@ -102,7 +114,7 @@ export class Grid {
     const invalid = track ? (following ? this.store.whyInvalid(track, k) : k < 0 || !track.ring.valid(k) ? "not valid" : "") : "no method";
     const tip = this.store.tipOf(id);
     const a = track && k >= 0 ? angles(track.ring, k) : null;
-    const joint = tile.shape === "joint";
+    const joint = tile.device.shape === "joint";
     const [first, second] = a ? (joint ? [a.angle, a.turn] : [a.heading, a.tilt]) : [NaN, NaN];
     say(tile.first, fixed(first, 0));
     say(tile.second, fixed(second, 0));

@@ -2,6 +2,7 @@
 
 import { Alarm, Banner } from "./alarm";
 import { Bar } from "./bar";
+import { Crowd } from "./crowd";
 import { Detail } from "./detail";
 import { DownloadDialog, PhoneDialog, TokenDialog } from "./dialogs";
 import { byId, h } from "./dom";
@@ -28,6 +29,7 @@ class Page {
   private store = new Store();
   private playhead: Playhead;
   private stage = new Stage();
+  private crowd = new Crowd();
   private shown: Grid | Detail | null = null;
   private all: Events | null = null;
   private key = "";
@@ -86,7 +88,7 @@ class Page {
       if (key === "nothing") main.replaceChildren();
       else if (key === "empty") main.replaceChildren(empty());
       else if (device) this.shown = new Detail(this.store, this.playhead, this.stage, this.source, device);
-      else this.shown = new Grid(this.store, this.playhead, this.stage);
+      else this.shown = new Grid(this.store, this.playhead, this.stage, this.crowd);
       if (this.shown) main.replaceChildren(this.shown.element);
       if (this.shown instanceof Grid && this.source.live) main.append((this.all = new Events(this.store, null)).element);
       scrollTo(0, 0);

@@ -6,12 +6,16 @@ import type { Shape } from "./protocol";
 
 type Part = { geometry: THREE.BufferGeometry; tone: number };
 
+/** How finely round things are made. Among many devices coarsely: where the processor draws, every corner costs it a microsecond. */
+let fine = true;
+const corners = (least: number, most: number): number => (fine ? most : least);
+
 function box(x: number, y: number, z: number, at: [number, number, number], tone: number): Part {
   return { geometry: new THREE.BoxGeometry(x, y, z).translate(...at).toNonIndexed(), tone };
 }
 
 function cylinder(radius: number, length: number, axis: "x" | "y" | "z", at: [number, number, number], tone: number, top = radius): Part {
-  const geometry = new THREE.CylinderGeometry(top, radius, length, 28); // along y
+  const geometry = new THREE.CylinderGeometry(top, radius, length, corners(8, 28)); // along y
   if (axis === "x") geometry.rotateZ(-Math.PI / 2);
   if (axis === "z") geometry.rotateX(Math.PI / 2);
   return { geometry: geometry.translate(...at).toNonIndexed(), tone };
@@ -20,7 +24,7 @@ function cylinder(radius: number, length: number, axis: "x" | "y" | "z", at: [nu
 function ring(outer: number, inner: number, length: number, at: [number, number, number], tone: number): Part {
   const shape = new THREE.Shape().absarc(0, 0, outer, 0, 2 * Math.PI, false);
   shape.holes.push(new THREE.Path().absarc(0, 0, inner, 0, 2 * Math.PI, true));
-  const geometry = new THREE.ExtrudeGeometry(shape, { depth: length, bevelEnabled: false, curveSegments: 24 });
+  const geometry = new THREE.ExtrudeGeometry(shape, { depth: length, bevelEnabled: false, curveSegments: corners(8, 24) });
   geometry.translate(0, 0, -length / 2).rotateX(Math.PI / 2).translate(...at);
   return { geometry: geometry.index ? geometry.toNonIndexed() : geometry, tone };
 }
@@ -32,7 +36,7 @@ function slab(width: number, length: number, height: number, corner: number, at:
   shape.absarc(-a + r, b - r, r, Math.PI / 2, Math.PI, false);
   shape.absarc(-a + r, -b + r, r, Math.PI, 1.5 * Math.PI, false);
   shape.absarc(a - r, -b + r, r, 1.5 * Math.PI, 2 * Math.PI, false);
-  const geometry = new THREE.ExtrudeGeometry(shape, { depth: height, bevelEnabled: false, curveSegments: 6 });
+  const geometry = new THREE.ExtrudeGeometry(shape, { depth: height, bevelEnabled: false, curveSegments: corners(1, 6) });
   geometry.translate(at[0], at[1], at[2] - height / 2);
   return { geometry: geometry.index ? geometry.toNonIndexed() : geometry, tone };
 }
@@ -95,11 +99,14 @@ export interface Looks {
   edges: THREE.BufferGeometry;
 }
 
-const made = new Map<Shape, Looks>();
+const made = new Map<string, Looks>();
 
-export function looks(shape: Shape): Looks {
-  let found = made.get(shape);
+/** *detailed*: for a large picture of it. */
+export function looks(shape: Shape, detailed: boolean): Looks {
+  const key = `${shape} ${detailed}`;
+  let found = made.get(key);
   if (!found) {
+    fine = detailed;
     const parts = (PARTS[shape] ?? PARTS.board)().map(({ geometry, tone }) => {
       const count = geometry.getAttribute("position").count;
       const value = TONES[tone];
@@ -112,7 +119,7 @@ export function looks(shape: Shape): Looks {
     });
     const solid = mergeGeometries(parts)!;
     found = { solid, edges: new THREE.EdgesGeometry(solid, 35) };
-    made.set(shape, found);
+    made.set(key, found);
   }
   return found;
 }

@@ -1,14 +1,24 @@
-// One WebGL canvas over all views, no larger than they are together; every view draws into the rectangle of its element.
+// One WebGL canvas over all views, no larger than they are together; every view draws into the rectangles of its elements.
 
 import * as THREE from "three";
 import { byId } from "./dom";
-import { paint, type Scene } from "./scene";
+import { paint } from "./paint";
+
+/** Where the canvas is, CSS pixels of the window. */
+export interface Area {
+  left: number;
+  top: number;
+  width: number;
+  height: number;
+}
 
 export interface View {
-  element: HTMLElement;
-  scene: Scene;
-  /** Sets the scene to the instant shown; false where it is as it was. */
+  /** what it draws into */
+  elements: Iterable<HTMLElement>;
+  /** Takes the instant shown. */
   update(): void;
+  /** Draws into those elements that have a box: the others are not in sight. */
+  draw(renderer: THREE.WebGLRenderer, boxes: Map<HTMLElement, DOMRect>, area: Area): void;
 }
 
 /** Whether the processor does the drawing: smooth edges would cost it a third more. */
@@ -18,7 +28,7 @@ function software(): boolean {
   return /swiftshader|llvmpipe|softpipe|basic render/i.test(name ?? "");
 }
 
-const MANY = 12; // views; more are drawn at one pixel a pixel
+const MANY = 12; // bodies; more are drawn at one pixel a pixel
 
 export class Stage {
   redraws = 0;
@@ -71,43 +81,38 @@ export class Stage {
     if (!renderer) return;
     const top = byId("bar").getBoundingClientRect().bottom;
     const bottom = byId("transport").getBoundingClientRect().top;
-    const seen = [...this.views]
-      .map(({ element, scene }) => ({ scene, box: element.getBoundingClientRect() }))
-      .filter(({ box }) => box.width > 0 && box.bottom > top && box.top < bottom);
-    this.fit(renderer, seen.map(({ box }) => box), top, bottom);
-    for (const { scene, box } of seen) {
-      const [left, up] = [box.left - this.left, box.top - this.top];
-      const [from, to] = [Math.max(0, up), Math.min(this.height, up + box.height)];
-      if (to <= from) continue;
-      scene.look(box.width / box.height);
-      renderer.setViewport(left, this.height - up - box.height, box.width, box.height);
-      renderer.setScissor(left, this.height - to, box.width, to - from);
-      renderer.render(scene.scene, scene.camera);
+    const boxes = new Map<HTMLElement, DOMRect>();
+    for (const view of this.views) {
+      for (const element of view.elements) {
+        const box = element.getBoundingClientRect();
+        if (box.width > 0 && box.bottom > top && box.top < bottom) boxes.set(element, box);
+      }
     }
+    this.canvas.hidden = boxes.size === 0;
+    if (!boxes.size) return;
+    this.fit(renderer, [...boxes.values()], top, bottom);
+    for (const view of this.views) view.draw(renderer, boxes, this.area);
   }
 
-  private left = 0;
-  private top = 0;
-  private height = 0;
+  private area: Area = { left: 0, top: 0, width: 0, height: 0 };
 
   /** Puts the canvas over *boxes*, between the lines at the top and the bottom of the page, and empties it. */
-  private fit(renderer: THREE.WebGLRenderer, boxes: DOMRect[], top: number, bottom: number): void {
-    this.canvas.hidden = boxes.length === 0;
-    if (!boxes.length) return;
-    this.left = Math.floor(Math.min(...boxes.map((box) => box.left)));
-    this.top = Math.floor(Math.max(top, Math.min(...boxes.map((box) => box.top))));
-    const width = Math.ceil(Math.max(...boxes.map((box) => box.right))) - this.left;
-    this.height = Math.ceil(Math.min(bottom, Math.max(...boxes.map((box) => box.bottom)))) - this.top;
-    const ratio = Math.min(devicePixelRatio, this.views.size > MANY ? 1 : 2);
-    const size = `${width} ${this.height} ${ratio}`;
+  private fit(renderer: THREE.WebGLRenderer, boxes: DOMRect[], above: number, below: number): void {
+    const left = Math.floor(Math.min(...boxes.map((box) => box.left)));
+    const top = Math.floor(Math.max(above, Math.min(...boxes.map((box) => box.top))));
+    const width = Math.ceil(Math.max(...boxes.map((box) => box.right))) - left;
+    const height = Math.ceil(Math.min(below, Math.max(...boxes.map((box) => box.bottom)))) - top;
+    this.area = { left, top, width, height };
+    const ratio = Math.min(devicePixelRatio, boxes.length > MANY ? 1 : 2);
+    const size = `${width} ${height} ${ratio}`;
     if (size !== this.size) {
       this.size = size;
       renderer.setPixelRatio(ratio);
-      renderer.setSize(width, this.height);
+      renderer.setSize(width, height);
     }
-    const place = `translate(${this.left}px, ${this.top}px)`;
+    const place = `translate(${left}px, ${top}px)`;
     if (place !== this.place) this.canvas.style.transform = this.place = place;
-    renderer.setScissor(0, 0, width, this.height);
+    renderer.setScissor(0, 0, width, height);
     renderer.clear();
   }
 }

@@ -201,7 +201,7 @@ function visibility() {
 const refusal = withheld();
 const secret = refusal ? "" : token();
 $("server").textContent = location.host;
-$("name").value = usualName();
+$("name").value ||= usualName(); // what was typed before this ran stays
 $("setup").addEventListener("submit", (event) => { event.preventDefault(); start(); });
 $("stop").addEventListener("click", stop);
 document.addEventListener("visibilitychange", visibility);
@@ -209,3 +209,4 @@ addEventListener("pagehide", () => link?.flush());
 showProblem(refusal);
 $("setup").hidden = Boolean(refusal);
 if (refusal) showState("Cannot start", "bad");
+$("start").disabled = false; // before, the browser would have sent the form itself
