@@ -487,7 +487,7 @@ def correct_field(
 
 @compiled
 def lose_velocity(P: Floats, wander: float, share: float) -> None:
-    """P_v += 2 σ_w² share: a velocity that was not measured goes over into another, of the same mean square (eq. 11a)."""
+    """P_v += 2 σ_w² share: a velocity that was not measured goes over into another, of the same mean square."""
     for k in range(VELOCITY, VELOCITY + 3):
         P[k, k] += 2.0 * wander * share
 
