@@ -344,6 +344,8 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         method.iron_walk**2 * T,
     )
     grow(P, s, noise)
+    if s.force_time == 0.0:
+        lose_velocity(P, known.wander, T / method.speed_time if method.speed_time > T else 1.0)
     add_clipping(P, s.clipped, 0.4 * method.gyr_range)
     if not state.begun and known.acc_delay == 0.0:  # half an interval: whether a sample is the mean before its stamp
         P[ACC_DELAY, ACC_DELAY] += (0.5 * T / s.samples) ** 2
@@ -481,6 +483,13 @@ def correct_field(
             P[H, FIELD + 1] = 1.0
             P[H, MAG_DELAY] = to_delay.z
             correct(P, e.z, variance)
+
+
+@compiled
+def lose_velocity(P: Floats, wander: float, share: float) -> None:
+    """P_v += 2 σ_w² share: a velocity that was not measured goes over into another, of the same mean square."""
+    for k in range(VELOCITY, VELOCITY + 3):
+        P[k, k] += 2.0 * wander * share
 
 
 @compiled
