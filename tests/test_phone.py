@@ -179,7 +179,11 @@ def test_a_start_tapped_before_the_page_is_ready_is_not_lost(browser: Any) -> No
         context = browser.new_context(viewport={"width": 390, "height": 844})
         page = context.new_page()
         held: list[Any] = []
-        page.route("**/phone.js", lambda each: held.append(each))
+
+        def hold(route: Any) -> None:
+            held.append(route)
+
+        page.route("**/phone.js", hold)
         page.goto(f"http://{running.address}/phone", wait_until="commit")
         page.fill("#name", "early")
         assert page.locator("#start").is_disabled()  # or the browser would send the form itself, and the page with it
