@@ -8,11 +8,14 @@ import math
 import re
 import time
 from collections.abc import Iterator
+from contextlib import ExitStack
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.image import imread
 from numpy.typing import NDArray
 
 import poise
@@ -317,6 +320,70 @@ def test_many_devices_are_tiles_and_one_can_be_chosen_with_the_keyboard(browser:
             shown.waits_for("window.poise.drawn('unit-02')?.sequence > 20")
             page.keyboard.press("Escape")
             shown.waits_for("document.querySelectorAll('.tile').length === 12")
+        shown.must_be_clean()
+
+
+def on_tile(east: float, north: float, side: float) -> tuple[float, float]:
+    """Where a point at the edge of the ground is on a tile's square of *side* pixels; the camera is that of scene.ts."""
+    azimuth, elevation, distance, middle = 0.42, 0.5, 8.4, np.array([0.0, 0.0, -0.5])
+    level = math.cos(elevation)
+    back = np.array([math.sin(azimuth) * level, -math.cos(azimuth) * level, math.sin(elevation)])
+    right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
+    seen = np.array([1.9 * east, 1.9 * north, -1.35]) - middle - distance * back
+    scale = 0.5 * side / (math.tan(math.radians(15.0)) * -(seen @ back))
+    return side / 2 + scale * (seen @ right), side / 2 - scale * (seen @ np.cross(back, right))
+
+
+def needle_of(page: Any, name: str) -> NDArray[np.float64]:
+    """(n, 3): the pixels in the accent's colour on the square of a device's tile, right and down, and its side."""
+    body = page.locator(".tile", has_text=name).locator(".body")
+    picture = imread(BytesIO(body.screenshot()))[:, :, :3]
+    accent = page.evaluate("getComputedStyle(document.documentElement).getPropertyValue('--accent').trim()")
+    colour = np.array([int(accent[k : k + 2], 16) for k in (1, 3, 5)]) / 255.0
+    rows, columns = np.nonzero(np.abs(picture - colour).max(axis=2) < 0.12)
+    height, width = picture.shape[:2]
+    side = min(height, width)
+    return np.column_stack([columns - (width - side) / 2, rows - (height - side) / 2, np.full(len(rows), side)])
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_a_tile_s_needle_points_where_the_device_points(browser: Any, scheme: str) -> None:
+    headings = {"north": 0, "east": 90, "south": 180, "west": 270}
+
+    def pointing(heading: float) -> Any:
+        def samples(first: int, n: int) -> NDArray[np.float64]:
+            rows = turning(first, n, 0.0)
+            rows[:, 7], rows[:, 8] = -20.0 * math.sin(math.radians(heading)), 20.0 * math.cos(math.radians(heading))
+            return rows
+
+        return samples
+
+    with serving() as live, page_of(browser, live, color_scheme=scheme) as shown, ExitStack() as stack:
+        for name, heading in headings.items():
+            stack.enter_context(sending(live, name, samples=pointing(heading)))
+        more = tuple(f"more-{k:02}" for k in range(16))  # there is room for the first 16 bodies and then for more
+        stack.enter_context(sending(live, *more))
+        page = shown.open()
+        for name in headings:
+            shown.waits_for(f"window.poise.drawn('{name}')?.valid")
+        for name, heading in headings.items():
+            found = needle_of(page, name)
+            side = found[0, 2]
+            ahead, behind = (
+                on_tile(sign * math.sin(math.radians(heading)), sign * math.cos(math.radians(heading)), side)
+                for sign in (1.0, -1.0)
+            )
+            middle = np.array(on_tile(0.0, 0.0, side))
+            share = [
+                np.mean(
+                    [
+                        np.hypot(*(found[:, :2] - (middle + t * (np.array(end) - middle))).T).min() < 2.0
+                        for t in np.linspace(0.4, 0.95, 12)
+                    ]
+                )
+                for end in (ahead, behind)
+            ]
+            assert share[0] > 0.8 and share[1] < 0.2, (name, share)
         shown.must_be_clean()
 
 

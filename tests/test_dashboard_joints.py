@@ -63,6 +63,7 @@ def test_a_bent_joint_has_its_angle_on_its_tile_and_on_its_page(browser: Any) ->
                 "/angle (39|40|41) degrees/.test(document.querySelector('.tile[aria-label^=knee]')?.ariaLabel)"
             )
             assert "Heading" not in tile.inner_text() and "Tilt" not in tile.inner_text()
+            assert "2 devices, 1 joint" in page.inner_text("#bar")
             tile.click()
             page.locator(".verdict", has_text=re.compile("^Valid$")).wait_for()
             shown.waits_for("Math.abs(parseFloat(document.querySelector('.figure').textContent) - 40) < 1")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import socket
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -156,6 +157,18 @@ def test_mistakes_are_told(
     poise.write(made(1.0), tmp_path / "walk.csv")
     assert run(["view", *arguments, "--no-open"]) == status
     assert said in capsys.readouterr().err
+
+
+def test_a_port_that_is_taken_is_told_before_the_work(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    poise.write(made(1.0), tmp_path / "walk.csv")
+    monkeypatch.setattr(sys.modules["poise.cli.view"], "_film", lambda *_: pytest.fail("it was estimated all the same"))
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        assert run(["view", str(tmp_path / "walk.csv"), "--port", str(port), "--no-open"]) == 1
+    said = capsys.readouterr().err
+    assert f"port {port}: another program listens there; give another --port" in said
 
 
 @pytest.mark.parametrize(

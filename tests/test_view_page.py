@@ -200,3 +200,16 @@ def test_an_angle_that_goes_round_is_drawn_without_lines_across_and_never_away(
         slopes = columns(page, plot)  # of thirteen
         assert np.mean(slopes > 0.0) > 0.85
         assert slopes.max() < 0.25
+
+
+def test_a_sigma_of_many_turns_leaves_the_angle_to_be_seen(browser: Any) -> None:
+    recording = measure(forearm(10.0, rate=50.0), Sensor(), seed=2)
+    attitude = poise.estimate(poise.AdaptiveGain(), recording)
+    assert attitude.sigma is not None
+    attitude.sigma[200:] = 100.0
+    shown = of_attitude("wide", attitude)
+    with serving(films=[shown]) as running, page_of(browser, f"http://{running.address}/?view") as page:
+        page.evaluate("poise.playhead.seek(9)")
+        until(page, "poise.ends('pitch')?.[1] > 60")
+        low, high = page.evaluate("poise.ends('pitch')")
+        assert -110.0 < low < -85.0 and 85.0 < high < 110.0

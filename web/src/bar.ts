@@ -22,8 +22,10 @@ export class Bar {
     const { link, hello, devices, health } = this.store;
     const chosen = this.chosen();
     const many = devices.size > 1;
-    const all = `${devices.size} ${this.store.instant ? "recordings" : "devices"}`;
-    const key = `${chosen} ${devices.size}`;
+    const joints = [...devices.values()].filter((device) => device.shape === "joint").length;
+    const counted = (count: number, name: string) => `${count} ${name}${count === 1 ? "" : "s"}`;
+    const all = counted(devices.size - joints, this.store.instant ? "recording" : "device") + (joints ? `, ${counted(joints, "joint")}` : "");
+    const key = `${chosen} ${all}`;
     if (key !== this.shown) {
       this.shown = key;
       this.crumb.replaceChildren(

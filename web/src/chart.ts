@@ -101,6 +101,12 @@ export class Chart {
     this.showValues();
   }
 
+  /** The ends of the scale upwards. */
+  get ends(): [number, number] | null {
+    const { min, max } = this.plot?.scales.y ?? {};
+    return min == null || max == null ? null : [min, max];
+  }
+
   private showValues(): void {
     const hovered = this.plot?.cursor.idx;
     const last = this.data[0].length - 1;

@@ -19,6 +19,8 @@ const VALUES: Record<Quantity, (a: Angles) => [number, number]> = {
   roll: (a) => [a.roll, a.sigmaRoll],
   angle: (a) => [a.angle, a.sigmaAngle],
 };
+/** Where a quantity's band ends: a sigma of a whole turn would leave nothing to be seen of the angle. */
+const ENDS: Partial<Record<Quantity, [number, number]>> = { pitch: [-90, 90], angle: [0, 180] };
 
 export interface Windowed {
   /** by quantity, and by the sensors' fields */
@@ -76,17 +78,17 @@ function angleColumns(ring: Ring, [first, end]: [number, number], stamps: number
     else while (stamps[row] < at) row++;
     if (k > first && at - ring.at(k - 1) > GAP) continue; // one row less, so that the line is broken
     const a = angles(ring, k);
-    quantities.forEach((quantity, q) => put(columns, 3 * q, row, ...VALUES[quantity](a)));
+    quantities.forEach((quantity, q) => put(columns, 3 * q, row, ...VALUES[quantity](a), ENDS[quantity]));
   }
   return columns;
 }
 
-function put(columns: Column[], at: number, row: number, value: number, sigma: number): void {
+function put(columns: Column[], at: number, row: number, value: number, sigma: number, [least, most] = [value - 180, value + 180]): void {
   if (!Number.isFinite(value)) return;
   columns[at][row] = value;
   if (!Number.isFinite(sigma)) return;
-  columns[at + 1][row] = value + sigma;
-  columns[at + 2][row] = value - sigma;
+  columns[at + 1][row] = Math.min(value + sigma, most);
+  columns[at + 2][row] = Math.max(value - sigma, least);
 }
 
 function sensorColumns(ring: Ring, [first, end]: [number, number], field: number): Column[] {

@@ -1,6 +1,7 @@
 // One device: its body, its numbers, its plots, its methods.
 
 import { BodyView } from "./bodies";
+import type { Quantity } from "./curves";
 import { h, say } from "./dom";
 import { Events } from "./events";
 import { FilmSource } from "./film";
@@ -64,6 +65,11 @@ export class Detail {
 
   drawn(method = 0): Drawn | null {
     return this.view.scene.drawn(method);
+  }
+
+  /** The ends of a plot's scale. */
+  ends(quantity: Quantity): [number, number] | null {
+    return this.plots.ends(quantity);
   }
 
   sync(): void {

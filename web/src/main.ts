@@ -3,6 +3,7 @@
 import { Alarm, Banner } from "./alarm";
 import { Bar } from "./bar";
 import { Crowd } from "./crowd";
+import type { Quantity } from "./curves";
 import { Detail } from "./detail";
 import { DownloadDialog, PhoneDialog, TokenDialog } from "./dialogs";
 import { byId, h } from "./dom";
@@ -123,6 +124,7 @@ class Page {
   private expose(): void {
     window.poise = {
       drawn: (id: string, method = 0) => (this.shown instanceof Detail && this.shown.device.id === id ? this.shown.drawn(method) : this.shown instanceof Grid ? this.shown.drawn(id) : null),
+      ends: (quantity: Quantity) => (this.shown instanceof Detail ? this.shown.ends(quantity) : null),
       redraws: () => this.stage.redraws,
       painted: () => this.version,
       store: this.store,

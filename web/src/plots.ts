@@ -65,6 +65,10 @@ export class Plots {
     this.each((chart) => chart.destroy());
   }
 
+  ends(quantity: Quantity): [number, number] | null {
+    return this.charts.get(quantity)?.ends ?? null;
+  }
+
   private each(work: (chart: Chart) => void): void {
     for (const chart of this.charts.values()) work(chart);
   }

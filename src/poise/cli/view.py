@@ -60,6 +60,7 @@ def view(
     open
         Open the page in a browser; done unless told where there is a terminal and a screen.
     """
+    from poise.live.listening import Listening, Options
     from poise.live.serving import check_installed, run
 
     reading = reading or Reading()
@@ -73,6 +74,8 @@ def view(
         reading.as_arguments()
         distinct(files)
         monitor = _monitor(tipover)
+        with Listening(Options(port=port)):
+            pass  # a port that is taken is told before the work, not after it
 
         def work(file: Path, tell: Callable[[str, float], None]) -> Film:
             return _film(file, choices, offline, monitor, reading, tell)
