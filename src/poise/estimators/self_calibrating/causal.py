@@ -407,7 +407,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     seen = e + field if s.mags > 0.0 and length > 0.0 else ZERO
     at_hand: Vec3 = transpose(matrix(q)) @ seen
     bias_changed = contradicted(method, P, s) or turns_alone(P, at_hand, still, T, rest)
-    bias_changed = bias_changed or (state.begun and s.mags > 0.0 and turned_away(method, P, s, seen, field))
+    bias_changed = bias_changed or (state.begun and s.mags > 0.0 and turned_away(method, P, s, seen, field, spread))
 
     # 8. Inject
     after = Sensor(

@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import atan2, radians, sqrt
 from typing import TYPE_CHECKING
 
-from poise.estimators.self_calibrating.model import BIAS, SUMS, TURN, VELOCITY, Floats, Sums, forget, put, vector
+from poise.estimators.self_calibrating.model import BIAS, KEPT, SUMS, TURN, VELOCITY, Floats, Sums, forget, put, vector
 from poise.estimators.self_calibrating.recall import recall
 from poise.math.compiled import compiled
 from poise.math.vectors import ZERO, Vec3, cross, dot
@@ -25,9 +25,11 @@ _SURE_TILT = radians(3.0)  # after which it is settled all the same
 _SAME, _STEADY = 0.1, 0.12  # lengths that its north and up may be off, and that it may stray from its mean
 _UNDISTURBED = 0.07  # lengths that dip and length may be off, for four times as long
 _WOULD_SHOW, _SHOWS = 0.05, 0.3  # lengths: the field would have moved by as much, and moved by that share of it
+_JUMP = 54.0  # spreads, squared length: a change from block to block of three sigma about each axis is a magnet's, not a bias's
+_LAST = 21  # where, in the row of what was known before, the field of the block before is (3)
 _SLOW = 25  # and the mean of the horizontal specific force over twice the time (2)
 _WATCHED = 27  # and for how many seconds: a mean of less than watch_time is that of one movement
-_OF_MOTION, _OF_LONGER = 0.12, 0.04  # of the motion's root mean square may be left in the mean, and over twice the time
+_OF_MOTION, _OF_LONGER = 0.6, 0.4  # s: of the motion's root mean square that share of a second may be left in a mean
 
 
 @compiled
@@ -54,15 +56,17 @@ def contradicted(method: SelfCalibrating, P: Floats, s: Sums) -> bool:
         return False
     off = x * x + y * y
     motion = sqrt(max(square - off, 0.0))
-    least, least_longer = method.watch_tilt + _OF_MOTION * motion, method.watch_tilt + _OF_LONGER * motion
+    least = method.watch_tilt + _OF_MOTION / method.watch_time * motion
+    least_longer = method.watch_tilt + _OF_LONGER / (2.0 * method.watch_time) * motion
     return off > least * least or longer_x * longer_x + longer_y * longer_y > least_longer * least_longer
 
 
 @compiled
-def turned_away(method: SelfCalibrating, P: Floats, s: Sums, seen: Vec3, field: Vec3) -> bool:
+def turned_away(method: SelfCalibrating, P: Floats, s: Sums, seen: Vec3, field: Vec3, spread: float) -> bool:
     """Whether the field stands there as it always did, but another way round: then it is the heading that has turned (eq. 23).
 
-    *seen* and *field* in lengths, Earth frame. What disturbs a field changes its dip or length, or moves with the body.
+    *seen* and *field* in lengths, Earth frame; *spread* the mean square of an axis. What disturbs a field changes its dip
+    or length, moves with the body, or came all at once, where a wrong bias turns the heading little by little.
     """
     row = SUMS + 2
     share = s.mag_time / (method.watch_time + s.mag_time)
@@ -75,13 +79,19 @@ def turned_away(method: SelfCalibrating, P: Floats, s: Sums, seen: Vec3, field: 
     up, longer = seen.z - field.z, sqrt(dot(seen, seen)) - 1.0
     misfit = float(P[row, _FIELD + 4])
     misfit += 0.25 * share * (up * up + longer * longer - misfit)
+    last = vector(P, KEPT, _LAST)
+    put(P, KEPT, _LAST, seen)
+    jump = seen - last
+    if last != ZERO and dot(jump, jump) > _JUMP * spread:
+        misfit = 1.0  # and so for twenty times watch_time, in which the magnet is learned, nothing is concluded
     P[row, _FIELD + 4] = misfit
     if misfit > _UNDISTURBED**2:
         return False
     north = sqrt(mean.x * mean.x + mean.y * mean.y)
-    if abs(north - field.y) > _SAME or abs(mean.z - field.z) > _SAME or square - dot(mean, mean) > _STEADY**2:
+    strayed = square - dot(mean, mean)
+    if abs(north - field.y) > _SAME or abs(mean.z - field.z) > _SAME or strayed > _STEADY**2:
         return False
-    return abs(atan2(mean.x, mean.y)) > method.watch_heading
+    return abs(atan2(mean.x, mean.y)) > method.watch_heading and mean.x * mean.x > strayed  # not all of it is new
 
 
 @compiled
@@ -136,5 +146,6 @@ def forget_watch(P: Floats) -> None:
     put(P, SUMS + 2, _MEAN, ZERO)
     put(P, SUMS + 2, _SEEN, ZERO)
     put(P, SUMS + 2, _FIELD, ZERO)
+    put(P, KEPT, _LAST, ZERO)
     P[SUMS + 2, _FIELD + 3], P[SUMS + 2, _FIELD + 4] = 0.0, 0.0
     P[SUMS + 2, _SLOW], P[SUMS + 2, _SLOW + 1], P[SUMS + 2, _WATCHED] = 0.0, 0.0, 0.0
