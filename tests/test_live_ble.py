@@ -145,7 +145,7 @@ def test_it_is_a_device_of_the_hub(monkeypatch: pytest.MonkeyPatch) -> None:
     with serving(source()) as live:
         wait_for(lambda: "Arm-Band" in live.hub.devices and live.hub.devices["Arm-Band"].health.samples == 60)
         assert live.hub.devices["Arm-Band"].shape == "band"
-        assert any(event["text"] == "ble:Arm Band: connected" for event in live.hub.events)
+        assert any(event["text"] == "ble:Arm Band: connected" for event in live.hub.happened.all())
 
 
 def test_no_bluetooth_is_refused_at_first_and_waited_for_later(monkeypatch: pytest.MonkeyPatch) -> None:

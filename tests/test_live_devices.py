@@ -113,7 +113,7 @@ def test_a_port_that_is_taken_is_an_event() -> None:
     first = Udp("127.0.0.1", 0)
     with serving(first) as live:
         with serving(Udp("127.0.0.1", bound(first)[1])) as other:
-            wait_for(lambda: any("cannot listen" in event["text"] for event in list(other.hub.events)))
+            wait_for(lambda: any("cannot listen" in event["text"] for event in other.hub.happened.all()))
             answer = other.http.get("/healthz")
             assert answer.status_code == 503
             assert any("cannot listen" in reason for reason in answer.json()["reasons"])
@@ -136,7 +136,7 @@ def test_a_source_that_floods_is_held_to_the_rate_and_its_neighbour_loses_nothin
         flood = live.hub.find("flood").health
         wait_for(lambda: flood.samples + flood.throttled == 6000)
         assert flood.throttled > 3000
-        assert any(event["kind"] == "throttled" and event["device"] == "flood" for event in list(live.hub.events))
+        assert any(event["kind"] == "throttled" and event["device"] == "flood" for event in live.hub.happened.all())
         assert f'poise_device_throttled_total{{device="flood"}} {flood.throttled}' in live.http.get("/metrics").text
 
 
@@ -249,7 +249,7 @@ def test_messages_at_a_broker(broker: int) -> None:
 )
 def test_what_is_not_there_is_said(source: Any) -> None:
     with serving(source) as live:
-        told = wait_for(lambda: [e["text"] for e in live.hub.events if e["kind"] == "source"])
+        told = wait_for(lambda: [e["text"] for e in live.hub.happened.all() if e["kind"] == "source"])
     assert told == [f"{source.name}: {source.trouble}"] and "it is" in told[0]
 
 

@@ -355,7 +355,7 @@ def test_damage_within_a_journal_is_left_out_and_what_follows_is_kept(
         recorder = Recorder(Session.below(tmp_path))
         with serving(recorder=recorder) as live, live.device("arm") as device:
             assert heard(device, "welcome")["next"] == len(rows)
-            assert any("are damaged and left out" in event["text"] for event in list(live.hub.events))
+            assert any("are damaged and left out" in event["text"] for event in live.hub.happened.all())
             wait_for(lambda: live.hub.devices["arm"].runs)
         assert len(advance.signatures) == kinds  # to compile it anew would keep a device waiting for many seconds
     kept = poise.read(session / "arm.parquet").time

@@ -203,7 +203,7 @@ def test_a_device_far_above_its_rate_is_cut_off() -> None:
                 send(flood, rows, first=k * len(rows), size=100)
             while True:  # all of it may fit in the sockets' buffers before the closing is heard
                 flood.recv(timeout=20.0)
-        assert any(event["kind"] == "throttled" and event["device"] == "flood" for event in list(live.hub.events))
+        assert any(event["kind"] == "throttled" and event["device"] == "flood" for event in live.hub.happened.all())
         send(calm, rows[:100])
         wait_for(lambda: live.hub.find("calm").health.samples == 100)
         assert live.hub.find("calm").health.lost == 0
@@ -214,7 +214,7 @@ def test_the_rate_is_that_of_a_device_however_many_connections_it_has() -> None:
     with serving(max_rate=200.0) as live, live.device("flood") as one, live.device("flood") as other:
         for k in range(0, 600, 100):  # each of them stays below what is allowed to one
             send((one, other)[k // 100 % 2], rows[k : k + 100], first=k, size=50)
-        wait_for(lambda: any(event["kind"] == "throttled" for event in list(live.hub.events)))
+        wait_for(lambda: any(event["kind"] == "throttled" for event in live.hub.happened.all()))
 
 
 def test_packets_that_come_late_are_counted_and_flags_of_now_are_told() -> None:
@@ -277,7 +277,7 @@ def test_a_replay_is_a_device() -> None:
     recording = made(3.0)
     with serving(Replay(recording, "played", speed=20.0)) as live:
         wait_for(lambda: live.hub.devices.get("played") and live.hub.find("played").health.samples == len(recording))
-        wait_for(lambda: any(event["kind"] == "end" for event in list(live.hub.events)))
+        wait_for(lambda: any(event["kind"] == "end" for event in live.hub.happened.all()))
         stream = live.hub.find("played").runs[0].stream
         expected = poise.estimate(poise.AdaptiveGain(), recording)
         latest = wait_for(lambda: stream.latest)
@@ -479,7 +479,7 @@ def test_a_heading_is_reset_for_all_methods_or_for_none() -> None:
         with pytest.raises(HubError, match="no attitude yet"):
             hub.reset_heading(device, "x")
     np.testing.assert_array_equal(first.stream.latest.quat, before)
-    assert hub.events[-1]["kind"] != "heading"
+    assert hub.happened.all()[-1]["kind"] != "heading"
 
 
 def test_a_body_over_http_is_read_no_further_than_it_may_go(live: Running) -> None:
@@ -519,9 +519,9 @@ class Slow:
 def test_what_is_amiss_with_a_source_is_said_once(monkeypatch: pytest.MonkeyPatch) -> None:
     with serving(Slow()) as live:
         time.sleep(2.2)
-        told = [event["text"] for event in live.hub.events if event["kind"] == "source"]
+        told = [event["text"] for event in live.hub.happened.all() if event["kind"] == "source"]
         monkeypatch.setattr(Slow, "trouble", "")
-        wait_for(lambda: live.hub.events[-1]["text"] == "slow: it is there again")
+        wait_for(lambda: live.hub.happened.all()[-1]["text"] == "slow: it is there again")
     assert len(told) == 2 and "cannot be reached" in told[0] and "3 lines or frames" in told[1]
 
 

@@ -213,7 +213,7 @@ def test_cut_connections_lose_nothing(browser: Any, motion: Any) -> None:
     np.testing.assert_array_equal(found["sequence"], np.arange(len(found)))
     np.testing.assert_allclose(found["acc"], recording.acc[: len(found)], rtol=1e-6)
     assert health.lost == 0
-    axes = [event for event in running.hub.events if event["kind"] == "axes"]
+    axes = [event for event in running.hub.happened.all() if event["kind"] == "axes"]
     assert len(axes) == 1  # the page was told them and tells them again
 
 
@@ -234,7 +234,7 @@ def test_a_server_that_was_restarted_is_sent_what_it_does_not_have(browser: Any,
         wait_for(lambda: again.hub.devices["pocket"].next > 790)
         device = again.hub.devices["pocket"]
         assert (device.health.samples, device.health.lost, device.shape) == (device.next, 0, "phone")
-        assert not [event for event in again.hub.events if event["kind"] == "axes"]  # the page knew them
+        assert not [event for event in again.hub.happened.all() if event["kind"] == "axes"]  # the page knew them
 
 
 def test_a_lasting_difference_from_the_browsers_own_orientation_is_an_event(browser: Any, motion: Any) -> None:
@@ -244,8 +244,8 @@ def test_a_lasting_difference_from_the_browsers_own_orientation_is_an_event(brow
     with serving() as running, phone(browser, f"http://{running.address}", token="") as page:
         begin(page)
         play(page, [*good[:600], *bad[600:1100], *good[1100:]])
-        wait_for(lambda: len([e for e in running.hub.events if e["kind"] == "opinion"]) == 2)
-        texts = [event["text"] for event in running.hub.events if event["kind"] == "opinion"]
+        wait_for(lambda: len([e for e in running.hub.happened.all() if e["kind"] == "opinion"]) == 2)
+        texts = [event["text"] for event in running.hub.happened.all() if event["kind"] == "opinion"]
     assert "differs in tilt" in texts[0]
     assert "agrees again" in texts[1]
 
@@ -324,7 +324,7 @@ def test_a_wrong_token_and_a_hidden_page_are_told(browser: Any) -> None:
                 )
                 page.evaluate("document.dispatchEvent(new Event('visibilitychange'))")
                 page.wait_for_timeout(600)
-            notes = [event["text"] for event in running.hub.events if event["kind"] == "note"]
+            notes = [event["text"] for event in running.hub.happened.all() if event["kind"] == "note"]
             assert "is hidden" in notes[0]
             assert "shown again" in notes[1]
             assert "was hidden for 1 s" in page.text_content("#notes")

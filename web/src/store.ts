@@ -77,7 +77,7 @@ export class Store implements Sink {
         return this.tell("health");
       case "event":
         this.events.push(message);
-        if (this.events.length > MOST_EVENTS) this.events.shift();
+        if (this.events.length > MOST_EVENTS) this.forgetOne();
         return this.tell("event");
       case "dropped":
         this.dropped = message.frames;
@@ -151,8 +151,18 @@ export class Store implements Sink {
 
   /** Events before this page came, or while it was away. */
   private recall(past: LiveEvent[]): void {
-    const own = past.length ? this.events.filter((event) => event.time < past[0].time) : [...this.events];
-    this.events.splice(0, this.events.length, ...own, ...past);
+    const named = ({ time, text }: LiveEvent) => `${time} ${text}`;
+    const told = new Set(past.map(named));
+    const own = this.events.filter((event) => !told.has(named(event)));
+    this.events.splice(0, this.events.length, ...[...own, ...past].sort((a, b) => a.time - b.time));
+  }
+
+  /** The oldest event of the device that has most of them. */
+  private forgetOne(): void {
+    const counts = new Map<string | null, number>();
+    for (const { device } of this.events) counts.set(device, (counts.get(device) ?? 0) + 1);
+    const most = Math.max(...counts.values());
+    this.events.splice(this.events.findIndex(({ device }) => counts.get(device) === most), 1);
   }
 
   private compareClocks(server: number): void {

@@ -17,6 +17,7 @@ from poise.estimators.engine import Stream
 from poise.live.batch import Batch, Newest, Span
 from poise.live.device import Device, Running
 from poise.live.devices import Shape
+from poise.live.happened import Happened
 from poise.live.joint import Joint
 from poise.live.joints import Joints
 from poise.live.methods import Choice, startable, warmed
@@ -49,7 +50,7 @@ class Hub:
         self.newest = Newest()
         self.joints = Joints(self.devices, self.newest)
         self._numbers = 0  # of devices and joints, none given twice
-        self.events: deque[dict[str, Any]] = deque(maxlen=_EVENTS)
+        self.happened = Happened(_EVENTS)
         self.on_batch: list[Callable[[Batch], None]] = []
         """called with every tick's samples and attitudes: the recorder, viewers of every sample"""
         self.on_event: list[Callable[[dict[str, Any]], None]] = []
@@ -303,7 +304,7 @@ class Hub:
         self._event_number += 1
         event = {"type": "event", "number": self._event_number, "kind": kind, "time": time.time()}
         event |= {"device": device.name if device else None, "text": text, **facts}
-        self.events.append(event)
+        self.happened.add(event)
         for told in self.on_event:
             told(event)
 

@@ -326,7 +326,7 @@ class Server:
             "offers": self.offers,
             "recording": self.recorder.condition() if self.recorder else None,
             "films": len(self.films),
-            "events": list(self.hub.events)[-_PAST_EVENTS:],
+            "events": self.hub.happened.newest(_PAST_EVENTS),
         }
 
     def device_list(self) -> dict[str, Any]:
@@ -377,7 +377,7 @@ class Server:
         queue: asyncio.Queue[dict[str, Any]] = asyncio.Queue(1000)
         self.listeners.add(queue)
         try:
-            for event in [each for each in self.hub.events if each["number"] > after]:
+            for event in self.hub.happened.after(after):
                 yield event
             while True:
                 yield await queue.get()
