@@ -157,12 +157,13 @@ export class Store implements Sink {
     this.events.splice(0, this.events.length, ...[...own, ...past].sort((a, b) => a.time - b.time));
   }
 
-  /** The oldest event of the device that has most of them. */
+  /** The oldest event of the device that has most of them; alarms are counted by themselves. */
   private forgetOne(): void {
-    const counts = new Map<string | null, number>();
-    for (const { device } of this.events) counts.set(device, (counts.get(device) ?? 0) + 1);
+    const of = ({ device, kind }: LiveEvent) => `${kind === "tip"} ${device}`;
+    const counts = new Map<string, number>();
+    for (const event of this.events) counts.set(of(event), (counts.get(of(event)) ?? 0) + 1);
     const most = Math.max(...counts.values());
-    this.events.splice(this.events.findIndex(({ device }) => counts.get(device) === most), 1);
+    this.events.splice(this.events.findIndex((event) => counts.get(of(event)) === most), 1);
   }
 
   private compareClocks(server: number): void {

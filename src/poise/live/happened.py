@@ -1,18 +1,24 @@
-"""What happened of late: a device that has much to tell leaves the others their share."""
+"""What happened of late: a device that has much to tell leaves the others their share, and alarms theirs."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any
 
 Event = dict[str, Any]
+ALARM = "tip"  # the kind of what a tip-over monitor tells
 
 
-def shared(events: Iterable[Event], most: int) -> list[Event]:
-    """*most* of *events* at most, in their order: the newest of each device, of every one as many as there is room for.
+def shared(events: list[Event], most: int) -> list[Event]:
+    """*most* of *events* at most, in their order: the newest of each device, as many of each as there is room for.
 
-    Where there are more devices than room, the newest of all.
+    Alarms have half of the room, or what the others leave. Where there are more devices than room, the newest of all.
     """
+    alarms, others = ([event for event in events if (event["kind"] == ALARM) == alarm] for alarm in (True, False))
+    kept = _evenly(alarms, max(most // 2, most - len(others)))
+    return sorted(kept + _evenly(others, most - len(kept)), key=_number)
+
+
+def _evenly(events: list[Event], most: int) -> list[Event]:
     of: dict[str | None, list[Event]] = {}
     for event in events:
         of.setdefault(event["device"], []).append(event)
@@ -23,11 +29,13 @@ def shared(events: Iterable[Event], most: int) -> list[Event]:
         if count > share:
             break
         left, share = left - count, count
-    kept = [event for own in of.values() for event in own[max(len(own) - share, 0) :]]
-    kept.sort(key=lambda event: event["number"])
-    return (
-        kept if kept or not of else sorted((own[-1] for own in of.values()), key=lambda event: event["number"])[-most:]
-    )
+    if share == 0 and most > 0:
+        return sorted((own[-1] for own in of.values()), key=_number)[-most:]
+    return [event for own in of.values() for event in own[max(len(own) - share, 0) :]]
+
+
+def _number(event: Event) -> int:
+    return int(event["number"])
 
 
 class Happened:
