@@ -167,6 +167,7 @@ def test_a_phone_that_shows_the_dashboard_gets_to_its_page_by_a_tap(browser: Any
         page.get_by_role("button", name="phone").click()
         page.get_by_role("dialog").get_by_text("no phone can get here").wait_for()  # as it serves this machine only
         page.get_by_role("link", name="Open that page here").click()
+        page.wait_for_selector("#start:enabled")
         page.fill("#name", "pocket")
         begin(page)
         wait_for(lambda: "pocket" in running.hub.devices)

@@ -201,7 +201,7 @@ function visibility() {
 const refusal = withheld();
 const secret = refusal ? "" : token();
 $("server").textContent = location.host;
-$("name").value ||= usualName(); // what was typed before this ran stays
+if (document.activeElement !== $("name")) $("name").value ||= usualName(); // what was, or is being, typed before this ran stays
 $("setup").addEventListener("submit", (event) => { event.preventDefault(); start(); });
 $("stop").addEventListener("click", stop);
 document.addEventListener("visibilitychange", visibility);
