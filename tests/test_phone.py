@@ -135,9 +135,13 @@ def test_a_phones_attitude_is_that_of_its_recording(
         until(page, "document.querySelector('#valid').textContent === 'yes'")
         tilts = np.degrees(offline.tilt()[-150:]).tolist()
         until(page, f"{tilts}.some((t) => Math.abs(t - parseFloat(document.querySelector('#tilt').textContent)) < 0.2)")
-        shown = float(page.text_content("#tilt").rstrip("°"))
-        drawn = re.search(r"matrix3d\((.*)\)", page.evaluate("document.querySelector('#slab').style.transform"))
-        heading = float(page.text_content("#heading").rstrip("°"))
+        # all at one instant: the page goes on
+        *texts, style = page.evaluate(
+            "[...['tilt', 'heading'].map((name) => document.getElementById(name).textContent),"
+            " document.querySelector('#slab').style.transform]"
+        )
+        shown, heading = (float(text.rstrip("°")) for text in texts)
+        drawn = re.search(r"matrix3d\((.*)\)", style)
         assert page.problems == []
         assert "#token" not in page.url
     assert drawn is not None
