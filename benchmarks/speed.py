@@ -99,6 +99,7 @@ def groups(made: Recording) -> dict[str, Group]:
         "live": Group("Live, one sample a call", "µs", 2, LIVE, live(made)),
         "stages": Group("Two stages beside one stacked update", "ns", 0, n, _estimates(made)),
         "stages_bare": Group("The same without guard and rest bias", "ns", 0, n, _estimates(made, False)),
+        "guard": Group("Without the guard and inside it", "ns", 0, n, guarded(made)),
         "control": Group("A control cycle: one sample in, a torque out", "µs", 2, LIVE, control(made)),
     }
 
@@ -244,6 +245,16 @@ def _packets(made: Recording) -> list[Packet]:
 
 def _estimates(made: Recording, wrapped: bool = True) -> dict[str, Run]:
     return {name: _estimate(method, made, wrapped) for name, method in FORMS.items()}
+
+
+def guarded(made: Recording) -> dict[str, Run]:
+    """Methods without the guard and inside it, the bias from rests beside both, and what vqf takes."""
+    runs = {name: run for name, run in batch(made).items() if name.startswith("vqf")}
+    for name in ("adaptive-gain", "two-stage", "self-calibrating"):
+        method = METHODS[name]()
+        runs[f"{name}, no guard"] = lambda method=method: estimate(method, made, guard=None)
+        runs[f"{name}, guard"] = lambda method=method: estimate(method, made)
+    return runs
 
 
 def _estimate(method: Any, made: Recording, wrapped: bool = True) -> Run:

@@ -440,6 +440,22 @@ def test_the_command_tells_what_was_learned(
 # -- defects that were --------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize("strength", [5.0, 10.0])
+def test_a_magnet_that_is_attached_is_no_turned_heading(strength: float) -> None:
+    recording = trial("05")
+    after = recording.time >= recording.time[0] + 0.5 * recording.duration
+    attached = replace(recording, mag=recording.mag + strength * np.outer(after, (1.0, 0.0, 0.0)))
+    judged = replace(recording, moving=recording.moving & after)
+    assert total(poise.estimate(FLAGSHIP, attached), judged) < 1.5  # it was 9 and 30 degrees
+
+
+@pytest.mark.parametrize(("number", "halved"), [("33", "watch_heading"), ("15", "watch_time")])
+def test_half_of_what_the_watch_waits_for_spoils_no_trial(number: str, halved: str) -> None:
+    recording = trial(number)
+    method = FLAGSHIP._replace(**{halved: 0.5 * getattr(FLAGSHIP, halved)})
+    assert total(poise.estimate(method, recording), recording) < 2.0  # it was 23 and 3.9 degrees
+
+
 def test_a_slow_turn_is_not_the_bias() -> None:
     recording = measure(robot(120.0, 100.0, 4), WHITE, seed=4)  # drives on, turning at 0.9 deg/s, from 78 s on
     assert total(poise.estimate(FLAGSHIP, recording), recording) < 3.0
