@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 import poise
 from data_files import data_path
@@ -259,6 +260,39 @@ def test_a_bias_that_changes_at_rest_is_told_by_the_field_that_stands_still() ->
     attitude = poise.estimate(FLAGSHIP, replace(recording, gyr=recording.gyr + turn))
     assert np.degrees(np.nanmax(poise.evaluate(attitude, recording).total[rest - 286 : rest])) < 3.0
     np.testing.assert_allclose(attitude.bias[rest - 1] - attitude.bias[at - 1], [0.0, 0.0, np.radians(1.0)], atol=2e-3)
+
+
+@pytest.mark.parametrize("step", [3.0, 6.0])
+def test_a_step_of_the_bias_beyond_any_rest_is_taken_back_in_seconds(step: float) -> None:
+    recording = trial("15")
+    at = int(np.flatnonzero(recording.moving)[-1]) + 4 * 286
+    off = np.radians(step) * np.array([0.36, 0.86, 0.35])
+    stepped = replace(recording, gyr=recording.gyr + off * (np.arange(len(recording)) >= at)[:, None])
+    attitude, clean = poise.estimate(FLAGSHIP, stepped), poise.estimate(FLAGSHIP, recording)
+    later = slice(at + 5 * 286, None)
+    np.testing.assert_allclose(attitude.bias[later] - clean.bias[later] - off, 0.0, atol=np.radians(0.3))
+    assert np.degrees(angle_between(attitude.quat[later], clean.quat[later])).max() < 5.0
+    assert not unsettled(attitude)[-286:].any()
+
+
+@pytest.mark.parametrize("rate", [3.0, 8.0, 20.0, 60.0])
+@pytest.mark.parametrize("axis", [(0.0, 0.0, 1.0), (0.1, 0.0, 1.0), (1.0, 0.0, 0.0)])
+def test_an_even_turn_with_a_strong_magnet_on_the_body_is_not_the_bias(
+    rate: float, axis: tuple[float, float, float]
+) -> None:
+    """The magnet, twice the field, stands in the body while the body turns."""
+    time = np.arange(3000) / 100.0
+    turning = np.clip(2.0 * (time - 5.0), 0.0, 1.0) * np.clip(2.0 * (25.0 - time), 0.0, 1.0)
+    rates = np.radians(rate) * np.outer(turning, axis / np.linalg.norm(axis))
+    to_body = Rotation.from_rotvec(np.cumsum(rates, axis=0) / 100.0).inv()
+    noise = np.random.default_rng(1).normal(size=(3, len(time), 3))
+    recording = poise.Recording(
+        time=time,
+        gyr=rates + 1e-3 * noise[0],
+        acc=to_body.apply([0.0, 0.0, 9.80665]) + 0.02 * noise[1],
+        mag=to_body.apply([0.0, 19.0, -44.0]) + [100.0, 0.0, 0.0] + 0.3 * noise[2],
+    )
+    assert np.degrees(np.abs(poise.estimate(FLAGSHIP, recording).bias).max()) < 0.8
 
 
 @pytest.mark.parametrize("name", ["01", "07", "11", "15", "21", "27", "29", "31", "33", "35"])

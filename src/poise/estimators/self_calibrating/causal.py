@@ -65,6 +65,7 @@ from poise.estimators.self_calibrating.watch import (
     doubt_bias,
     forget_watch,
     settled,
+    turn_per_bias,
     turned_away,
     turns_alone,
 )
@@ -84,7 +85,8 @@ class State(NamedTuple):
     rate: Vec3  # ω, rad/s
     mean_gyr: Vec3  # what stillness is judged against
     mean_acc: Vec3
-    still: float  # s
+    calm: float  # s that neither rate nor force have strayed from their means
+    still: float  # s of that in which the mean rate could be the bias
     begun: bool  # a block has been closed
     P: Floats  # (37, 28): the errors' covariance and, below it, the rest of the memory; see model.py
 
@@ -177,7 +179,7 @@ class SelfCalibrating(NamedTuple):
         none = Mat3(ZERO, ZERO, ZERO)
         put_sensor(P, Sensor(none, ZERO, ZERO, ZERO, self.mag_delay, 0.0, 0.0, _FIRST_SPREAD, _FIRST_WANDER))
         attitude = attitude_of(sample.acc, sample.mag, 0.0)
-        return State(attitude, bias, ZERO, sample.gyr, sample.acc, 0.0, False, P)
+        return State(attitude, bias, ZERO, sample.gyr, sample.acc, 0.0, 0.0, False, P)
 
     def restart(self, state: State, sample: Sample, bias: Vec3) -> State:
         """Attitude from acc and mag anew; what was learned of the sensors, the bias too, stays."""
@@ -190,7 +192,7 @@ class SelfCalibrating(NamedTuple):
         forget_watch(P)
         put(P, SENSOR, 9, ZERO)
         attitude = attitude_of(sample.acc, sample.mag, 0.0)
-        return State(attitude, state.bias, ZERO, sample.gyr, sample.acc, 0.0, state.begun, P)
+        return State(attitude, state.bias, ZERO, sample.gyr, sample.acc, 0.0, 0.0, state.begun, P)
 
     def step(self, state: State, sample: Sample) -> State:
         T, f, m, P = sample.dt, sample.acc, sample.mag, state.P
@@ -210,14 +212,13 @@ class SelfCalibrating(NamedTuple):
             clipped = clipped + T * clipped_columns(R, sample.gyr, 0.98 * self.gyr_range)
         share = T / (0.5 + T)
         mean_gyr = state.mean_gyr + share * (sample.gyr - state.mean_gyr)
-        still = within(sample.gyr - mean_gyr, self.rest_gyr) and (
-            within(mean_gyr, self.rest_gyr) or within(mean_gyr - state.bias, self.rest_gyr)
-        )
+        calm = within(sample.gyr - mean_gyr, self.rest_gyr)
+        slow = within(mean_gyr, self.rest_gyr) or within(mean_gyr - state.bias, self.rest_gyr)
         mean_acc = state.mean_acc
         force, force_late, force_time, excess = s.force, s.force_late, s.force_time, s.excess_square
         if present(f):
             mean_acc = mean_acc + share * (f - mean_acc)
-            still = still and within(f - mean_acc, self.rest_acc)
+            calm = calm and within(f - mean_acc, self.rest_acc)
             earth: Vec3 = R @ turned_back(f, w, known.acc_delay)
             moved: Vec3 = R @ cross(w, f)
             force, force_late = force + sample.acc_dt * earth, force_late - sample.acc_dt * moved
@@ -241,11 +242,12 @@ class SelfCalibrating(NamedTuple):
             s.rate_square + dot(w, w), excess, mags, mag_time, off, to_iron, to_delay, clipped,
             s.unmeasured + sample.turn_variance,
         )  # fmt: skip
-        seconds = state.still + T if still else 0.0
+        seconds = state.calm + T if calm else 0.0
+        still = state.still + T if calm and slow else 0.0
         if sums.time < self.block - 0.5 * T:
             put_sums(P, sums)
-            return State(q, state.bias, w, mean_gyr, mean_acc, seconds, state.begun, P)
-        return closed(self, State(q, state.bias, w, mean_gyr, mean_acc, seconds, state.begun, P), sums, known)
+            return State(q, state.bias, w, mean_gyr, mean_acc, seconds, still, state.begun, P)
+        return closed(self, State(q, state.bias, w, mean_gyr, mean_acc, seconds, still, state.begun, P), sums, known)
 
     def output(self, state: State, sample: Sample) -> Output:
         """The attitude, after *lead*, with true north; sigma about the Earth's axes from P and what P cannot know."""
@@ -405,8 +407,14 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
             correct_field(P, e, field, (1.0 / s.mags) * s.to_iron, (1.0 / s.mags) * s.to_delay, all_axes, variance)
     symmetrise(P)
     seen = e + field if s.mags > 0.0 and length > 0.0 else ZERO
-    at_hand: Vec3 = transpose(matrix(q)) @ seen
-    bias_changed = contradicted(method, P, s) or turns_alone(P, at_hand, still, T, rest)
+    at_hand, upright = ZERO, ZERO  # body frame, in lengths of the field and in g
+    calm = state.calm >= method.rest_time
+    if calm:
+        to_body = transpose(matrix(q))
+        at_hand = to_body @ seen
+        upright = to_body @ ((1.0 / (method.gravity * s.force_time)) * force) if s.force_time > 0.0 else ZERO
+    rate_is_bias = turns_alone(P, at_hand, upright, still, T, rest, calm)
+    bias_changed = contradicted(method, P, s) or rate_is_bias
     bias_changed = bias_changed or (state.begun and s.mags > 0.0 and turned_away(method, P, s, seen, field, spread))
 
     # 8. Inject
@@ -426,13 +434,20 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         remember(P, after, T)
     else:
         begin_memory(P, after)
+    turn_per_bias(P, s.rotation, T / (method.watch_time + T))
     if bias_changed:  # 9. What was thought to be known of it is not
         doubt_bias(method, P)
+    rested = state.still
+    if rate_is_bias:  # and it rests, however far that is from the bias of before
+        rested = state.calm
+        correct_one(P, BIAS, still.x, method.rest_noise**2)
+        correct_one(P, BIAS + 1, still.y, method.rest_noise**2)
+        correct_one(P, BIAS + 2, still.z, method.rest_noise**2)
     enter_block(P, s, ANOTHER_BIAS if bias_changed else (BEGUN_ANEW if anew else GOES_ON))
     begin_block(P)
     q = normalize(exp(vector(P, X, TURN)) * q)
     bias = state.bias + vector(P, X, BIAS)
-    return State(q, bias, state.rate, state.mean_gyr, state.mean_acc, state.still, True, P)
+    return State(q, bias, state.rate, state.mean_gyr, state.mean_acc, state.calm, rested, True, P)
 
 
 @compiled

@@ -9,25 +9,44 @@ from __future__ import annotations
 from math import atan2, radians, sqrt
 from typing import TYPE_CHECKING
 
-from poise.estimators.self_calibrating.model import BIAS, KEPT, SUMS, TURN, VELOCITY, Floats, Sums, forget, put, vector
+from poise.estimators.self_calibrating.model import (
+    BIAS,
+    KEPT,
+    SUMS,
+    TURN,
+    TURNED,
+    VELOCITY,
+    Floats,
+    Sums,
+    forget,
+    put,
+    vector,
+)
 from poise.estimators.self_calibrating.recall import recall
 from poise.math.compiled import compiled
+from poise.math.matrices import Mat3
 from poise.math.vectors import ZERO, Vec3, cross, dot
 
 if TYPE_CHECKING:
     from poise.estimators.self_calibrating.causal import SelfCalibrating
 
 _MEAN = 10  # where the row of sums keeps the mean of the horizontal specific force (2) and of the square of all of it
-_SEEN, _TURNED = 13, 16  # and of a rest the field that it began with (3), and the turn since then (3), body frame
+_SEEN, _TURNED = 13, 16  # and of a calm stretch the field it began with (3) and the turn since (3), body frame
 _FIELD = 19  # and the mean of the field as it was seen (3), Earth frame, of its square, and of its misfit
 _UNSETTLED = 24  # and the seconds that the attitude is unsettled for, after the bias was doubted
 _SURE_TILT = radians(3.0)  # after which it is settled all the same
 _SAME, _STEADY = 0.1, 0.12  # lengths that its north and up may be off, and that it may stray from its mean
 _UNDISTURBED = 0.07  # lengths that dip and length may be off, for four times as long
+_FAR = 1.0  # rad: a turn after which the field is looked at anew: it may come back
+_WOULD_LEAN = 0.1  # rad: gravity would have moved by as much; a vehicle in a bend leans a little less than upright
 _WOULD_SHOW, _SHOWS = 0.05, 0.3  # lengths: the field would have moved by as much, and moved by that share of it
 _JUMP = 54.0  # spreads, squared length: a change from block to block of three sigma about each axis is a magnet's, not a bias's
 _LAST = 21  # where, in the row of what was known before, the field of the block before is (3)
+_UPRIGHT = 21  # and in the row behind it, up in the body as _SEEN was seen (3)
 _SLOW = 25  # and the mean of the horizontal specific force over twice the time (2)
+_PER_BIAS = (
+    9  # and where rows of what a block adds up keep how a bias has turned the attitude lately, rad per rad/s (9)
+)
 _WATCHED = 27  # and for how many seconds: a mean of less than watch_time is that of one movement
 _OF_MOTION, _OF_LONGER = 0.6, 0.4  # s: of the motion's root mean square that share of a second may be left in a mean
 
@@ -59,6 +78,14 @@ def contradicted(method: SelfCalibrating, P: Floats, s: Sums) -> bool:
     least = method.watch_tilt + _OF_MOTION / method.watch_time * motion
     least_longer = method.watch_tilt + _OF_LONGER / (2.0 * method.watch_time) * motion
     return off > least * least or longer_x * longer_x + longer_y * longer_y > least_longer * least_longer
+
+
+@compiled
+def turn_per_bias(P: Floats, rotation: Mat3, share: float) -> None:
+    """J ← (1 − share) J − S_R: how far one rad/s of a bias, new since about *watch_time*, has turned the attitude."""
+    for i in range(3):
+        row = rotation.x if i == 0 else (rotation.y if i == 1 else rotation.z)
+        put(P, TURNED + i, _PER_BIAS, (1.0 - share) * vector(P, TURNED + i, _PER_BIAS) - row)
 
 
 @compiled
@@ -95,26 +122,33 @@ def turned_away(method: SelfCalibrating, P: Floats, s: Sums, seen: Vec3, field: 
 
 
 @compiled
-def turns_alone(P: Floats, field: Vec3, off: Vec3, time: float, rest: bool) -> bool:
-    """Whether at rest the gyroscope alone turns, by *off* rad/s beside the bias, and the field in the body stands (eq. 24).
+def turns_alone(P: Floats, field: Vec3, up: Vec3, off: Vec3, time: float, rest: bool, calm: bool) -> bool:
+    """Whether the gyroscope alone turns, evenly, by *off* rad/s beside the bias, and what is seen in the body stands (eq. 24).
 
-    *field* in lengths; ZERO where there is no magnetometer sample. The turn about the field itself shows nowhere.
+    *field* in lengths, *up* the specific force in g; ZERO where nothing was measured. At rest the field is
+    enough. A *calm* body may turn as evenly as that, with a magnet on it whose field stands: there gravity must stand too.
+    The turn about what is seen shows nowhere.
     """
     row = SUMS + 2
-    if not rest:
+    if not calm:
         put(P, row, _SEEN, ZERO)
         return False
     if field == ZERO:
         return False
-    seen = vector(P, row, _SEEN)
-    if seen == ZERO:
+    seen, upright = vector(P, row, _SEEN), vector(P, KEPT + 1, _UPRIGHT)
+    turned = vector(P, row, _TURNED) + time * off
+    if seen == ZERO or dot(turned, turned) > _FAR**2:
         put(P, row, _SEEN, field)
+        put(P, KEPT + 1, _UPRIGHT, up)
         put(P, row, _TURNED, ZERO)
         return False
-    turned = vector(P, row, _TURNED) + time * off
     put(P, row, _TURNED, turned)
     would, moved = cross(turned, seen), field - seen
-    return dot(would, would) > _WOULD_SHOW**2 and dot(moved, moved) < _SHOWS**2 * dot(would, would)
+    stands = dot(would, would) > _WOULD_SHOW**2 and dot(moved, moved) < _SHOWS**2 * dot(would, would)
+    if rest or not stands or up == ZERO:
+        return rest and stands
+    would, moved = cross(turned, upright), up - upright
+    return dot(would, would) > _WOULD_LEAN**2 and dot(moved, moved) < _SHOWS**2 * dot(would, would)
 
 
 @compiled
@@ -128,10 +162,26 @@ def doubt_bias(method: SelfCalibrating, P: Floats) -> None:
     away = atan2(mean.x, mean.y)  # 0 where none has been seen
     heading = float(P[TURN + 2, TURN + 2]) + 9.0 * max(off, method.initial_tilt**2) + away * away
     forget(P, TURN + 2, 1, min(heading, method.initial_heading**2))
+    _turn_with_bias(P, method.initial_bias**2)
     forget(P, VELOCITY, 3, 1.0)
     recall(P, 0.5 * float(P[row, _FIELD + 4]))
     forget_watch(P)
     P[row, _UNSETTLED] = method.watch_time
+
+
+@compiled
+def _turn_with_bias(P: Floats, variance: float) -> None:
+    """What is off in the bias has turned the attitude, J δb: the one tells of the other (eq. 26)."""
+    for i in range(3):
+        own = vector(P, TURNED + i, _PER_BIAS)
+        for k in range(3):
+            P[TURN + i, TURN + k] += variance * dot(own, vector(P, TURNED + k, _PER_BIAS))
+        put(P, TURN + i, BIAS, variance * own)
+        P[BIAS, TURN + i], P[BIAS + 1, TURN + i], P[BIAS + 2, TURN + i] = (
+            variance * own.x,
+            variance * own.y,
+            variance * own.z,
+        )
 
 
 @compiled
@@ -147,5 +197,7 @@ def forget_watch(P: Floats) -> None:
     put(P, SUMS + 2, _SEEN, ZERO)
     put(P, SUMS + 2, _FIELD, ZERO)
     put(P, KEPT, _LAST, ZERO)
+    for i in range(3):
+        put(P, TURNED + i, _PER_BIAS, ZERO)
     P[SUMS + 2, _FIELD + 3], P[SUMS + 2, _FIELD + 4] = 0.0, 0.0
     P[SUMS + 2, _SLOW], P[SUMS + 2, _SLOW + 1], P[SUMS + 2, _WATCHED] = 0.0, 0.0, 0.0
