@@ -158,6 +158,36 @@ def test_samples_that_come_unevenly_keep_their_stamps() -> None:
     assert away_deg(poise.estimate(METHOD, clean()[kept]), kept).max() < 1.0
 
 
+def in_packets(true: NDArray[np.float64], seed: int) -> NDArray[np.float64]:
+    """Stamps of rows that arrive 4 to 12 at a time: all of a packet have that of its last row."""
+    ends = np.cumsum(np.random.default_rng(seed).integers(4, 13, len(true))) - 1
+    return np.asarray(true[np.minimum(ends[np.searchsorted(ends, np.arange(len(true)))], len(true) - 1)])
+
+
+@pytest.mark.parametrize("seed", [11, 13])
+def test_packets_of_many_sizes_are_followed_for_minutes(seed: int) -> None:
+    """What their first stamps were taken for wrongly was paid back in one step of 0.2 s, a minute later."""
+    recording = poise.read(next(data_path("broad").glob("25_*.mat")))
+    flagship = poise.SelfCalibrating()
+    attitude = poise.estimate(flagship, replace(recording, time=in_packets(recording.time, seed)))
+    away = np.degrees(angle_between(attitude.quat, poise.estimate(flagship, recording).quat))
+    assert away.max() < 5.0  # it was 21
+    assert not flagged(attitude, Flag.JITTER)[10:].size
+
+
+@pytest.mark.parametrize("rate", [75.0, 110.0, 200.0])
+def test_packets_whose_pace_changes_are_followed_again(rate: float) -> None:
+    """A body that turns at 1 rad/s for 30 s, at 100 samples a second, and for 30 s at another rate."""
+    time = np.concatenate([np.arange(3000) / 100.0, 30.0 + np.arange(int(30 * rate)) / rate])
+    gyr = np.tile([0.0, 0.0, 1.0], (len(time), 1))
+    acc = np.tile([0.0, 0.0, 9.80665], (len(time), 1)) + 0.01 * np.random.default_rng(1).normal(size=(len(time), 3))
+    attitude = poise.estimate(METHOD, poise.Recording(in_packets(time, 1), gyr, acc), rest_bias=False)
+    heading = np.unwrap(2.0 * np.arctan2(attitude.quat[:, 3], attitude.quat[:, 0]))
+    late = time >= 40.0
+    assert np.polyfit(time[late], heading[late], 1)[0] == pytest.approx(1.0, abs=0.03)
+    assert attitude.valid.all()
+
+
 def test_stamps_in_batches_lose_no_rotation() -> None:
     last_of_five = np.minimum(np.arange(len(clean())) // 5 * 5 + 4, len(clean()) - 1)
     attitude = poise.estimate(METHOD, changed(time=clean().time[last_of_five]))

@@ -12,12 +12,12 @@ SHORTEST = 1e-7  # s: a noise density over no time at all would overflow
 _LONGEST = 1e12
 _SHARE = 0.02  # of a new step in the usual one: that of the last 50 rows or so
 _MOST = 0.1  # of the usual step: a longer one counts as that much longer, for a lost row is not a slower sensor
-_FOLLOW, _FOLLOW_PACKETS = 0.01, 0.0005  # of what stamps that scatter are off, row by row
+_FOLLOW, _FOLLOW_PACKETS = 0.01, 0.0001  # of what stamps that scatter are off, row by row
 _SCATTER = 4e-4  # (usual step)²: 2 % of it, squared; less is not worth a thought
 _TURNS_BACK = -0.3  # correlation of successive steps. −0.5 where the stamps scatter, and 0 where the samples do
 _FARTHEST = 40.0  # steps
 _OFTEN = 0.005  # of a new row in what is known of the scatter
-_LONG = 5000.0  # rows whose mean step is that of stamps that scatter
+_LONG, _ANEW = 5000.0, 30.0  # rows whose mean step is that of stamps that scatter; and once that was another
 _AT_ONCE = 0.3  # of the rows have no stamp of their own: they come in packets
 
 
@@ -106,13 +106,19 @@ def timed(pace: Pace, dt: float, repeated: bool, goes_on: bool, gap: float, long
     if dt <= gap and usual > 0.0 and _scattered(pace):
         in_packets = pace.at_once > _AT_ONCE
         rows = 1.0 if in_packets else max(floor(left / usual + 0.5), 1.0)
-        follow = max(_FOLLOW_PACKETS if in_packets else _FOLLOW, 1.0 / (pace.rows + 1.0))
+        # At first a packet's stamp stands for all its rows, or what it was taken for wrongly is paid back for minutes
+        since = pace.waiting + 1.0 if in_packets else 1.0
+        follow = max(_FOLLOW_PACKETS if in_packets else _FOLLOW, min(since * (1.0 / (pace.rows + 1.0) - 1e-3), 1.0))
         off = min(max(left - rows * usual, -_FARTHEST * usual), _FARTHEST * usual)
-        given = rows * usual + follow * off
-        if abs(given - left) <= gap:
-            counted = pace.waiting + 1.0 if in_packets else max(floor(dt / usual + 0.5), 1.0)
+        given = rows * usual + min(max(follow * off, -0.5 * usual), 0.5 * usual)
+        counted = pace.waiting + 1.0 if in_packets else max(floor(dt / usual + 0.5), 1.0)
+        ahead = given - left
+        if in_packets or abs(ahead) <= gap:
             usual += (dt - counted * usual) / max(pace.rows if in_packets else min(pace.rows, 500.0), counted)
-            return Timed(_after(pace, usual, given - left, kept, dt), given, 0)
+            if abs(ahead) > gap:  # more than sensible steps can pay back: the pace is another one
+                anew = Pace(usual, 0.0, kept, 0, 0, 0.0, pace.scatter, pace.turns, pace.at_once, _ANEW)
+                return Timed(anew, usual, 0)
+            return Timed(_after(pace, usual, ahead, kept, dt), given, 0)
     mean = dt / (pace.waiting + 1.0)
     if mean <= gap:
         share = min(_SHARE * (pace.waiting + 1.0), 1.0)
