@@ -1,6 +1,6 @@
 """How fast poise is beside other packages, in one run on one machine.
 
-    python benchmarks/speed.py [--rounds N] [--write]
+    python benchmarks/speed.py [--rounds N] [--write | GROUP...]
 
 Contenders take turns (A B A B …) and are warm before the first round: compiling is not counted, and the machine's moods
 meet all of them. Ratios are what to compare; the times belong to the machine they were measured on.
@@ -190,10 +190,18 @@ def main(arguments: list[str] | None = None) -> int:
         return 1
     made = recording()
     results: dict[str, Any] = {"samples": SAMPLES, "rate_hz": RATE, "rounds": options.rounds, "versions": _versions()}
-    for key, group in groups(made).items():
+    every = groups(made)
+    if unknown := set(options.groups) - set(every):
+        print(f"no group {', '.join(sorted(unknown))}; there are {', '.join(every)}", file=sys.stderr)
+        return 2
+    for key, group in every.items():
+        if options.groups and key not in options.groups:
+            continue
         timings = interleaved(group, options.rounds)
         _show(group, timings)
         results[key] = {name: _ratios(timing) for name, timing in timings.items()}
+    if options.groups:
+        return 0
     print(heading("Single calls of Stream.update: µs, the clock's own 0.1 µs included"))
     print(table(["", "median", "99 %", "99.9 %"], late(made)))
     errors = form_errors()
@@ -208,11 +216,14 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", 1)[0])
+    parser.add_argument("groups", nargs="*", metavar="GROUP", help="batch, offline, live, guard …: these only")
     parser.add_argument("--rounds", type=int, default=ROUNDS, help=f"turns of every contender, {ROUNDS} or more")
     parser.add_argument("--write", action="store_true", help="store the ratios")
     options = parser.parse_args(arguments)
     if options.rounds < ROUNDS:
         parser.error(f"--rounds {options.rounds}: fewer than {ROUNDS} say little")
+    if options.groups and options.write:
+        parser.error("--write stores all groups: name none")
     return options
 
 

@@ -9,7 +9,7 @@ Departures from the print: there is none; what was tried and left out stands on 
 
 from __future__ import annotations
 
-from math import atan2, cos, pi, radians, sqrt
+from math import pi, radians, sqrt
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -17,78 +17,46 @@ import numpy as np
 from poise.data.flags import GYR_CLIPPED, MAG_DISTURBED, REST, UNSETTLED
 from poise.data.learned import Learned
 from poise.data.packet import Output, Sample
-from poise.estimators.self_calibrating.learned import check_start, doubts, iron_from_before, take_over
+from poise.estimators.self_calibrating.block import closed
+from poise.estimators.self_calibrating.learned import check_start, doubts, take_over
 from poise.estimators.self_calibrating.learned import learned as known_by_now
 from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
-    ANOTHER_BIAS,
     BEGUN_ANEW,
     BIAS,
     COLUMNS,
     ENTRY,
     FIELD,
-    GOES_ON,
     IRON,
     MAG_DELAY,
     NOTHING,
     ROWS,
     SCALE,
     SENSOR,
-    SIZE,
     TURN,
     VELOCITY,
     Floats,
-    H,
-    Noise,
     Sensor,
+    State,
     Sums,
-    X,
     add_turned,
     begin_block,
-    correct,
-    correct_one,
     enter_block,
     forget,
-    grow,
     put,
     put_sensor,
     put_sums,
     sensor_of,
     sums_of,
-    symmetrise,
-    three,
-    vector,
 )
-from poise.estimators.self_calibrating.recall import begin_memory, remember
-from poise.estimators.self_calibrating.watch import (
-    contradicted,
-    doubt_bias,
-    forget_watch,
-    settled,
-    turn_per_bias,
-    turned_away,
-    turns_alone,
-)
+from poise.estimators.self_calibrating.watch import forget_watch, settled
 from poise.math.compiled import compiled
 from poise.math.matrices import Mat3, matrix, transpose
-from poise.math.quaternions import Quat, attitude_of, conjugate, exp, normalize, renormalized, rotate, shortest_turn
-from poise.math.vectors import UP, ZERO, Vec3, cross, dot, norm, present, unit, within
+from poise.math.quaternions import attitude_of, exp, renormalized, rotate
+from poise.math.vectors import UP, ZERO, Vec3, cross, dot, present, within
 
 _FIRST_SPREAD = 1e-4  # (share of the field)², before any has been measured
 _FIRST_WANDER = 0.04  # (m/s)²
-_ANOTHER = 100.0  # lengths: what was taken for the field, so much smaller than what came then, was none
-
-
-class State(NamedTuple):
-    attitude: Quat  # body to Earth with magnetic north
-    bias: Vec3  # rad/s
-    rate: Vec3  # ω, rad/s
-    mean_gyr: Vec3  # what stillness is judged against
-    mean_acc: Vec3
-    calm: float  # s that neither rate nor force have strayed from their means
-    still: float  # s of that in which the mean rate could be the bias
-    begun: bool  # a block has been closed
-    P: Floats  # (37, 28): the errors' covariance and, below it, the rest of the memory; see model.py
 
 
 class SelfCalibrating(NamedTuple):
@@ -326,197 +294,3 @@ def clipped_columns(R: Mat3, gyr: Vec3, limit: float) -> Mat3:
         Vec3(x * R.y.x, y * R.y.y, z * R.y.z),
         Vec3(x * R.z.x, y * R.z.y, z * R.z.z),
     )
-
-
-@compiled
-def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> State:
-    """The state after the end of a block: 4. covariance, 5. rest, 6. pseudo-velocity, 7. magnetometer, 8. inject."""
-    P = state.P
-    T, rate_square = s.time, s.rate_square / s.samples
-    still = (1.0 / s.samples) * s.gyr - state.bias
-    rest = state.still >= method.rest_time
-
-    # 4. Covariance
-    walk = method.bias_walk_rest if rest else method.bias_walk
-    noise = Noise(
-        (method.gyr_noise**2 + method.scale_noise**2 * rate_square) * T + s.unmeasured,
-        walk**2 * T,
-        (method.acc_noise**2 + method.motion_noise**2 * s.excess_square / s.samples) * T,
-        method.field_walk**2 * T,
-        method.iron_walk**2 * T,
-    )
-    grow(P, s, noise)
-    if s.force_time == 0.0:
-        lose_velocity(P, known.wander, T / method.speed_time if method.speed_time > T else 1.0)
-    add_clipping(P, s.clipped, 0.4 * method.gyr_range)
-    if not state.begun and known.acc_delay == 0.0:  # half an interval: whether a sample is the mean before its stamp
-        P[ACC_DELAY, ACC_DELAY] += (0.5 * T / s.samples) ** 2
-    q = state.attitude if state.begun else levelled(method, state.attitude, s)
-    force = s.force if state.begun else rotate(q * conjugate(state.attitude), s.force)
-    v = known.velocity + force - (method.gravity * s.force_time) * UP
-    for j in range(SIZE):
-        P[X, j] = 0.0
-
-    # 5. At rest the mean rate is the bias, 6. the pseudo-velocity is near 0
-    if rest and likely_bias(method, P, still):
-        variance = method.rest_noise**2 * method.block / T
-        correct_one(P, BIAS, still.x, variance)
-        correct_one(P, BIAS + 1, still.y, variance)
-        correct_one(P, BIAS + 2, still.z, variance)
-    wander = known.wander
-    if s.force_time > 0.0:
-        if rest:
-            variance = method.rest_speed**2 * method.block / T
-        else:
-            share, usual = T / (method.spread_time + T), wander + method.speed**2
-            wander += share * (min(dot(v, v) / 3.0, 9.0 * usual) - wander)
-            wander = min(wander, method.fastest**2)  # what it follows less it strays from more
-            variance = (method.speed**2 + method.speed_time * wander) / s.force_time
-        correct_one(P, VELOCITY, -v.x, variance)
-        correct_one(P, VELOCITY + 1, -v.y, variance)
-        correct_one(P, VELOCITY + 2, -v.z, variance)
-
-    # 7. Magnetometer
-    field, length, spread, iron = known.field, known.length, known.spread, known.iron
-    anew = not state.begun
-    e = ZERO
-    if s.mags > 0.0:
-        e = (1.0 / s.mags) * s.off
-        if length < 0.0:  # a hard iron from before, in lengths of the field there
-            held = iron_from_before(known, norm(e))
-            there: Vec3 = (1.0 / s.mags) * s.to_iron @ held
-            e = e - there
-            iron = held / norm(e)
-        if not state.begun:
-            e = rotate(q * conjugate(state.attitude), e)
-        if length <= 0.0:
-            length = norm(e)
-            field = Vec3(0.0, sqrt(e.x * e.x + e.y * e.y) / length, e.z / length)
-            q = exp(atan2(e.x, e.y) * UP) * q
-        elif dot(e, e) > _ANOTHER**2:
-            length, anew = 0.0, True
-            forget(P, FIELD, 2, 0.25)
-            forget(P, TURN + 2, 1, method.initial_heading**2)
-        else:
-            share = s.mag_time / (method.spread_time + s.mag_time)
-            spread += share * (min(dot(e, e) / 3.0, 9.0 * spread) - spread)
-            beyond_own = max(dot(e, e) - field.y * field.y * float(P[TURN + 2, TURN + 2]), 0.0)
-            own = max(spread, beyond_own / 27.0)
-            variance = (method.field_time * own + method.block * method.mag_rate_noise**2 * rate_square) / s.mag_time
-            all_axes = P[0, 0] + P[1, 1] > 2.0 * method.sure_tilt**2
-            correct_field(P, e, field, (1.0 / s.mags) * s.to_iron, (1.0 / s.mags) * s.to_delay, all_axes, variance)
-    symmetrise(P)
-    seen = e + field if s.mags > 0.0 and length > 0.0 else ZERO
-    at_hand, upright = ZERO, ZERO  # body frame, in lengths of the field and in g
-    calm = state.calm >= method.rest_time
-    if calm:
-        to_body = transpose(matrix(q))
-        at_hand = to_body @ seen
-        upright = to_body @ ((1.0 / (method.gravity * s.force_time)) * force) if s.force_time > 0.0 else ZERO
-    rate_is_bias = turns_alone(P, at_hand, upright, still, T, rest, calm)
-    bias_changed = contradicted(method, P, s) or rate_is_bias
-    bias_changed = bias_changed or (state.begun and s.mags > 0.0 and turned_away(method, P, s, seen, field, spread))
-
-    # 8. Inject
-    after = Sensor(
-        known.scale + three(P, X, SCALE),
-        v + vector(P, X, VELOCITY),
-        field + Vec3(0.0, float(P[X, FIELD]), float(P[X, FIELD + 1])),
-        iron + vector(P, X, IRON),
-        known.mag_delay + float(P[X, MAG_DELAY]),
-        known.acc_delay + float(P[X, ACC_DELAY]),
-        length,
-        spread,
-        wander,
-    )
-    put_sensor(P, after)
-    if state.begun:
-        remember(P, after, T)
-    else:
-        begin_memory(P, after)
-    turn_per_bias(P, s.rotation, T / (method.watch_time + T))
-    if bias_changed:  # 9. What was thought to be known of it is not
-        doubt_bias(method, P)
-    rested = state.still
-    if rate_is_bias:  # and it rests, however far that is from the bias of before
-        rested = state.calm
-        correct_one(P, BIAS, still.x, method.rest_noise**2)
-        correct_one(P, BIAS + 1, still.y, method.rest_noise**2)
-        correct_one(P, BIAS + 2, still.z, method.rest_noise**2)
-    enter_block(P, s, ANOTHER_BIAS if bias_changed else (BEGUN_ANEW if anew else GOES_ON))
-    begin_block(P)
-    q = normalize(exp(vector(P, X, TURN)) * q)
-    bias = state.bias + vector(P, X, BIAS)
-    return State(q, bias, state.rate, state.mean_gyr, state.mean_acc, state.calm, rested, True, P)
-
-
-@compiled
-def likely_bias(method: SelfCalibrating, P: Floats, off: Vec3) -> bool:
-    """Whether a mean rate this far from the bias can be the bias itself: a slow, even turn is not."""
-    most = 25.0  # five sigma, squared
-    own = method.rest_noise**2
-    x, y, z = float(P[BIAS, BIAS]) + own, float(P[BIAS + 1, BIAS + 1]) + own, float(P[BIAS + 2, BIAS + 2]) + own
-    return off.x * off.x < most * x and off.y * off.y < most * y and off.z * off.z < most * z
-
-
-@compiled
-def levelled(method: SelfCalibrating, q: Quat, s: Sums) -> Quat:
-    """The attitude that a block started at, levelled where gravity contradicts it: then it was given, and wrong."""
-    if s.force_time == 0.0:
-        return q
-    mean = (1.0 / s.force_time) * s.force
-    length = norm(mean)
-    off = mean.z < cos(3.0 * method.initial_tilt) * length
-    return shortest_turn(unit(mean), UP) * q if off and abs(length - method.gravity) < 0.1 * method.gravity else q
-
-
-@compiled
-def correct_field(
-    P: Floats, e: Vec3, field: Vec3, to_iron: Mat3, to_delay: Vec3, all_axes: bool, variance: float
-) -> None:
-    """The three numbers of the field's error e = [h]× ε + δh + R₀ δb + R₀ (ω × u) δτ (eq. 14).
-
-    Of [h]× only what turns the heading, unless the tilt is unsure: a disturbed field is not to tilt the horizon.
-    """
-    for k in range(3):
-        for j in range(SIZE):
-            P[H, j] = 0.0
-        row = to_iron.x if k == 0 else (to_iron.y if k == 1 else to_iron.z)
-        put(P, H, IRON, row)
-        if k == 0:
-            P[H, TURN + 2] = field.y
-            P[H, TURN + 1] = -field.z if all_axes else 0.0
-            P[H, MAG_DELAY] = to_delay.x
-            correct(P, e.x, variance)
-        elif k == 1:
-            P[H, TURN] = field.z if all_axes else 0.0
-            P[H, FIELD] = 1.0
-            P[H, MAG_DELAY] = to_delay.y
-            correct(P, e.y, variance)
-        else:
-            P[H, TURN] = -field.y if all_axes else 0.0
-            P[H, FIELD + 1] = 1.0
-            P[H, MAG_DELAY] = to_delay.z
-            correct(P, e.z, variance)
-
-
-@compiled
-def lose_velocity(P: Floats, wander: float, share: float) -> None:
-    """P_v += 2 σ_w² share: a velocity that was not measured goes over into another, of the same mean square."""
-    for k in range(VELOCITY, VELOCITY + 3):
-        P[k, k] += 2.0 * wander * share
-
-
-@compiled
-def add_clipping(P: Floats, clipped: Mat3, error: float) -> None:
-    """Q_ε += V Vᵀ error²: a clipped rate is wrong by any part of the range, the same way for as long as it lasts (eq. 11)."""
-    C: Mat3 = (error * error) * (clipped @ transpose(clipped))
-    P[0, 0] += C.x.x
-    P[0, 1] += C.x.y
-    P[0, 2] += C.x.z
-    P[1, 0] += C.y.x
-    P[1, 1] += C.y.y
-    P[1, 2] += C.y.z
-    P[2, 0] += C.z.x
-    P[2, 1] += C.z.y
-    P[2, 2] += C.z.z

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from poise.math.compiled import compiled
 from poise.math.matrices import Mat3
+from poise.math.quaternions import Quat
 from poise.math.vectors import ZERO, Vec3
 
 Floats = NDArray[np.float64]
@@ -33,6 +34,18 @@ ONE = SIZE  # the column of single numbers
 GOES_ON, BEGUN_ANEW, ANOTHER_BIAS = 0.0, 1.0, 2.0  # what became of the attitude, and of the bias, after a block
 
 _NONE = Mat3(ZERO, ZERO, ZERO)
+
+
+class State(NamedTuple):
+    attitude: Quat  # body to Earth with magnetic north
+    bias: Vec3  # rad/s
+    rate: Vec3  # ω, rad/s
+    mean_gyr: Vec3  # what stillness is judged against
+    mean_acc: Vec3
+    calm: float  # s that neither rate nor force have strayed from their means
+    still: float  # s of that in which the mean rate could be the bias
+    begun: bool  # a block has been closed
+    P: Floats  # (37, 28): the errors' covariance and, below it, the rest of the memory; see model.py
 
 
 class Sums(NamedTuple):
