@@ -262,9 +262,13 @@ def test_a_bias_that_changes_at_rest_is_told_by_the_field_that_stands_still() ->
     np.testing.assert_allclose(attitude.bias[rest - 1] - attitude.bias[at - 1], [0.0, 0.0, np.radians(1.0)], atol=2e-3)
 
 
-@pytest.mark.parametrize("step", [3.0, 6.0])
-def test_a_step_of_the_bias_beyond_any_rest_is_taken_back_in_seconds(step: float) -> None:
+@pytest.mark.parametrize(("step", "every"), [(3.0, 1), (6.0, 1), (6.0, 60)])
+def test_a_step_of_the_bias_beyond_any_rest_is_taken_back_in_seconds(step: float, every: int) -> None:
+    """*every* so many rows the magnetometer speaks."""
     recording = trial("15")
+    recording = replace(
+        recording, mag=np.where((np.arange(len(recording)) % every == 0)[:, None], recording.mag, np.nan)
+    )
     at = int(np.flatnonzero(recording.moving)[-1]) + 4 * 286
     off = np.radians(step) * np.array([0.36, 0.86, 0.35])
     stepped = replace(recording, gyr=recording.gyr + off * (np.arange(len(recording)) >= at)[:, None])

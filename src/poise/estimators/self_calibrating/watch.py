@@ -133,16 +133,16 @@ def turns_alone(P: Floats, field: Vec3, up: Vec3, off: Vec3, time: float, rest: 
     if not calm:
         put(P, row, _SEEN, ZERO)
         return False
-    if field == ZERO:
-        return False
     seen, upright = vector(P, row, _SEEN), vector(P, KEPT + 1, _UPRIGHT)
     turned = vector(P, row, _TURNED) + time * off
+    put(P, row, _TURNED, turned)
+    if field == ZERO:
+        return False
     if seen == ZERO or dot(turned, turned) > _FAR**2:
         put(P, row, _SEEN, field)
         put(P, KEPT + 1, _UPRIGHT, up)
         put(P, row, _TURNED, ZERO)
         return False
-    put(P, row, _TURNED, turned)
     would, moved = cross(turned, seen), field - seen
     stands = dot(would, would) > _WOULD_SHOW**2 and dot(moved, moved) < _SHOWS**2 * dot(would, would)
     if rest or not stands or up == ZERO:
