@@ -44,9 +44,7 @@ _JUMP = 54.0  # spreads, squared length: a change from block to block of three s
 _LAST = 21  # where, in the row of what was known before, the field of the block before is (3)
 _UPRIGHT = 21  # and in the row behind it, up in the body as _SEEN was seen (3)
 _SLOW = 25  # and the mean of the horizontal specific force over twice the time (2)
-_PER_BIAS = (
-    9  # and where rows of what a block adds up keep how a bias has turned the attitude lately, rad per rad/s (9)
-)
+_PER_BIAS = 9  # and where rows of what a block adds up keep how a bias has turned the attitude lately, J (9)
 _WATCHED = 27  # and for how many seconds: a mean of less than watch_time is that of one movement
 _OF_MOTION, _OF_LONGER = 0.6, 0.4  # s: of the motion's root mean square that share of a second may be left in a mean
 
