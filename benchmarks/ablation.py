@@ -10,6 +10,7 @@ rates         block means of 3 and 6 samples
 six           without magnetometer: inclination, and drift of the heading from the first row in motion
 sigma         how sigma covers the errors about the Earth's axes, by what the sensor does
 start         from an attitude 60° wrong in heading and 20° in tilt
+lying         a step of the gyroscope's bias, beyond any rest, 4 s after the last motion of the chosen half
 magnet        a magnet attached in the middle of a recording
 field         where the local field points, seen from the reference, and the heading's constant error
 instant       the attitude given out some milliseconds later or earlier
@@ -39,7 +40,7 @@ from poise.math import arrays
 from poise.peers import PEERS
 from poise.simulation import Sensor, Triad, forearm, measure, phone, robot
 from regimes import Table, Trials
-from scores import halves
+from scores import CHOSEN, halves
 from studies import block_means
 from tables import Cell, table
 
@@ -220,9 +221,7 @@ def sigma(trials: Trials) -> Iterator[Table]:
 
 def start(trials: Trials) -> Iterator[Table]:
     rows: list[list[Cell]] = []
-    wrong = arrays.multiply(
-        *(Rotation.from_euler(a, v, degrees=True).as_quat()[[3, 0, 1, 2]] for a, v in (("Z", 60.0), ("X", 20.0)))
-    )
+    wrong = Rotation.from_euler("ZX", [60.0, 20.0], degrees=True).as_quat()[[3, 0, 1, 2]]
     for name, recording in trials.items():
         row: list[Cell] = [name]
         assert recording.truth is not None and recording.moving is not None
@@ -243,6 +242,30 @@ def start(trials: Trials) -> Iterator[Table]:
         ["", *(f"{where}: {figure}" for where in ("at rest", "in motion") for figure in figures)],
         rows,
     )
+
+
+def lying(trials: Trials) -> Iterator[Table]:
+    rows: list[list[Cell]] = []
+    for size in (3.0, 6.0):
+        taken, apart = [], []
+        for name, recording in trials.items():
+            if int(name[:2]) not in CHOSEN:
+                continue
+            assert recording.moving is not None
+            after = recording.time > recording.time[np.flatnonzero(recording.moving)[-1]] + 4.0
+            clean = causal()(recording)
+            for seed in range(12):
+                direction = np.random.default_rng(seed).normal(size=3)
+                off = np.radians(size) * direction / np.linalg.norm(direction)
+                stepped = causal()(replace(recording, gyr=recording.gyr + off * after[:, None]))
+                wrong = after & (np.linalg.norm(stepped.bias - clean.bias - off, axis=1) > np.radians(0.3))
+                taken.append(float(np.ptp(recording.time[wrong])))
+                turn = arrays.angle(arrays.multiply(stepped.quat, arrays.conjugate(clean.quat)))
+                apart.append(float(np.degrees(turn[after]).max()))
+        rows.append([f"{size:g} deg/s", *np.percentile(taken, [50, 90, 100]), *np.percentile(apart, [50, 100])])
+    columns = ["", "s until the bias is right within 0.3 deg/s: median", "90 %", "longest"]
+    columns += ["most the attitude is off by, degrees: median", "worst"]
+    yield "a step of the bias while the sensor lies still, seven trials and twelve directions", columns, rows
 
 
 def magnet(trials: Trials) -> Iterator[Table]:
@@ -352,7 +375,7 @@ def made(trials: Trials) -> Iterator[Table]:
 
 SECTIONS: dict[str, Callable[[Trials], Iterator[Table]]] = {
     "trials": per_trial, "without": without, "sensitivity": sensitivity, "late": late, "rates": rates, "six": six,
-    "sigma": sigma, "start": start, "magnet": magnet, "field": field, "instant": instant, "tried": tried,
+    "sigma": sigma, "start": start, "lying": lying, "magnet": magnet, "field": field, "instant": instant, "tried": tried,
     "made": made,
 }  # fmt: skip
 

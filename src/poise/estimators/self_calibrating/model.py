@@ -37,6 +37,8 @@ _NONE = Mat3(ZERO, ZERO, ZERO)
 
 
 class State(NamedTuple):
+    """The method's state after a sample."""
+
     attitude: Quat  # body to Earth with magnetic north
     bias: Vec3  # rad/s
     rate: Vec3  # ω, rad/s
@@ -45,7 +47,7 @@ class State(NamedTuple):
     calm: float  # s that neither rate nor force have strayed from their means
     still: float  # s of that in which the mean rate could be the bias
     begun: bool  # a block has been closed
-    P: Floats  # (37, 28): the errors' covariance and, below it, the rest of the memory; see model.py
+    P: Floats  # (37, 28): the errors' covariance and, below it, the rest of the memory: see ROWS
 
 
 class Sums(NamedTuple):
