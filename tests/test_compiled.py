@@ -147,7 +147,7 @@ from poise.estimators.loop import advance
 module, wrapped = sys.argv[1], sys.argv[2] == "wrapped"
 method = importlib.import_module(module).Pull(gain=0.5)
 recording = poise.Recording.at_rate(100, np.full((40, 3), 0.1), np.tile([1.0, 2.0, 9.0], (40, 1)))
-attitude = poise.estimate(method, recording, guard=wrapped or None, rest_bias=False)
+attitude = poise.estimate(method, recording, guard=None, rest_bias=wrapped)
 hits = sum(advance.stats.cache_hits.values())
 print(json.dumps({"package": poise.__file__, "quat": attitude.quat[-1].tolist(), "served": hits > 0}))
 """
@@ -224,7 +224,7 @@ def test_a_users_method_leaves_no_trace_in_the_cache(installation: Installation)
     assert built_in["served"]
     assert built_in["quat"] == first["quat"]
 
-    # An edit of the user's module shows, inside the Guard too.
+    # An edit of the user's module shows, inside a method of the package too.
     edited(users_file, "self.gain * error", "4.0 * self.gain * error")
     after = installation.run("mine", wrapped=True, users=True)
     assert not before["served"] and not after["served"]

@@ -100,9 +100,12 @@ def assert_adapted(found: Conformance, estimator: Any, limit: float = 1.0) -> No
     assert np.sqrt(np.nanmean(error**2)) < limit
 
 
+EVERY = ("wxyz", "xyzw", "matrix"), (False, True), ("ENU", "NED", "NWU", "SEU", "EUS"), ("rad/s", "deg/s")
+
+
 @pytest.mark.parametrize(
     ("order", "inverse", "frame", "gyr_unit"),
-    list(product(("wxyz", "xyzw", "matrix"), (False, True), ("ENU", "NED", "NWU", "SEU", "EUS"), ("rad/s", "deg/s"))),
+    [combination for i, combination in enumerate(product(*EVERY)) if i % 3 == 0],  # every two of the values meet
 )
 def test_every_convention_is_named(order: str, inverse: bool, frame: str, gyr_unit: str) -> None:
     estimator = made(order, inverse, frame, gyr_unit)
