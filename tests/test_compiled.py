@@ -17,7 +17,8 @@ import poise
 from helpers import plain
 from poise.estimators.parameters import prepared
 from poise.math import compiled as bridge
-from poise.math.compiled import Choice, compiled, entry
+from poise.math.choices import Choice
+from poise.math.compiled import compiled, entry
 from poise.math.vectors import Vec3
 
 # -- choices ----------------------------------------------------------------------------------------------------------
@@ -59,7 +60,7 @@ def test_a_choice_in_a_kernel_differs_from_every_other_text(mode: Any) -> None:
 def test_all_texts_of_a_choice_share_one_compilation() -> None:
     for mode in ("fast", "slow"):
         which(prepared(Switch(mode)))  # type: ignore[arg-type]
-    assert bridge.PLAIN_PYTHON or len(which.signatures) == 1  # type: ignore[attr-defined]
+    assert bridge.PLAIN_PYTHON or len(which._twin.signatures) == 1  # type: ignore[attr-defined]
 
 
 def test_a_choice_is_a_text_in_python() -> None:

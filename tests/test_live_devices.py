@@ -97,6 +97,21 @@ def test_datagrams_of_every_kind(sender: socket.socket) -> None:
             arrived(live, f"127.0.0.1:{other.getsockname()[1]}", 1)
 
 
+def test_made_up_names_take_few_places_and_noise_none(sender: socket.socket, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("poise.live.udp._MOST_PEERS", 3)
+    udp = Udp("127.0.0.1", 0)
+    with serving(udp) as live:
+        to = bound(udp)
+        for k in range(10):
+            sender.sendto(b"@noise%d\nnonsense" % k, to)
+        for k in range(5):
+            sender.sendto(b"@made%d\n" % k + frames.encoded(ROWS[:10], 0), to)
+        wait_for(lambda: udp.rejected == 12)
+        assert list(live.hub.devices) == ["made0", "made1", "made2"]
+        sender.sendto(b"@made1\n" + frames.encoded(ROWS[10:20], 10), to)  # whoever has a place keeps it
+        arrived(live, "made1", 20)
+
+
 def test_lost_and_late_datagrams_are_counted(sender: socket.socket) -> None:
     udp = Udp("127.0.0.1", 0)
     with serving(udp) as live:

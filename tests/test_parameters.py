@@ -13,7 +13,7 @@ from poise.estimators.guard import Guard
 from poise.estimators.parameters import as_dict, parameters, prepared
 from poise.estimators.rest_bias import RestBias
 from poise.estimators.two_stage import TwoStage
-from poise.math.compiled import Choice
+from poise.math.choices import Choice
 from poise.math.vectors import Vec3
 
 

@@ -128,15 +128,13 @@ def fits(given: Answer, quat: Floats, rows: NDArray[np.intp]) -> list[Fit]:
         return []
     # Euler angles of a turned body are Euler angles of another order: only the body as it is can be told.
     bodies = frames.QUATS[:1] if given.form == "Euler angles" else frames.QUATS
-    turned = arrays.multiply(true[None], bodies[:, None])
+    back = arrays.conjugate(arrays.multiply(true[None], bodies[:, None]))
     found = []
     for reading in readings(given):
         read = reading.quat(values)
         if not np.isfinite(read).all():
             continue
-        for i, (earth, residual) in enumerate(
-            zip(*_best(arrays.multiply(read[None], arrays.conjugate(turned))), strict=True)
-        ):
+        for i, (earth, residual) in enumerate(zip(*_best(arrays.multiply(read[None], back)), strict=True)):
             found.append(Fit(reading, earth, i, float(residual)))
     return sorted(found, key=lambda fit: fit.residual)
 

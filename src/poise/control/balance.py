@@ -18,7 +18,8 @@ from poise.errors import MethodError
 from poise.estimators.loop import state_of
 from poise.estimators.parameters import prepared
 from poise.estimators.protocol import start, step
-from poise.math.compiled import Memory, compiled, entry
+from poise.math.compiled import compiled, entry
+from poise.math.memory import Memory
 from poise.math.quaternions import inner, up_in_body
 from poise.math.vectors import dot, present
 

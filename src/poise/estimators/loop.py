@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from poise.data.flags import LOST, RESET
 from poise.data.packet import Sample
 from poise.estimators.protocol import output, resting_sample, start, step
-from poise.math.compiled import Memory, borrowed, compiled, entry, returned
+from poise.math.compiled import compiled, entry
+from poise.math.memory import Memory, borrowed, returned
 from poise.math.quaternions import Quat, conjugate, inner, log
 from poise.math.vectors import Vec3
 

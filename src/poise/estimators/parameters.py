@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal, NamedTuple, get_args, get_origin, ge
 import numpy as np
 
 from poise.errors import MethodError
-from poise.math.compiled import Choice
+from poise.math.choices import Choice
 from poise.math.matrices import Mat3
 from poise.math.vectors import Vec3
 

