@@ -17,7 +17,7 @@ demo: $(VENV)/ready
 	@echo "Open $(RESULTS)/report.html; then try: $(BIN)/poise estimate YOUR_FILE --plot picture.png"
 
 test: $(VENV)/ready
-	$(BIN)/python -m pytest -n 3 --dist worksteal # on two cores: the tests of pages and servers mostly wait
+	$(BIN)/python -m pytest -n 2 --dist worksteal
 
 lint: $(VENV)/ready
 	$(BIN)/ruff check .

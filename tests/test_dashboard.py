@@ -67,8 +67,9 @@ def test_the_body_turns_as_the_device_turns(browser: Any) -> None:
         with sending(live, "turntable"):
             shown.open()
             shown.waits_for("window.poise.drawn('turntable')?.sequence > 100")
-            pairs = []
-            for _ in range(8):
+            pairs: list[Any] = []
+            end = time.monotonic() + 20.0  # beside other work a picture in software may take a second
+            while len(pairs) < 8 or (len({pair["sequence"] for pair in pairs}) <= 3 and time.monotonic() < end):
                 pairs.append(shown.drawn("turntable"))
                 time.sleep(0.15)
             last = max(pair["sequence"] for pair in pairs if pair)

@@ -107,6 +107,7 @@ def test_made_up_names_take_few_places_and_noise_none(sender: socket.socket, mon
         for k in range(5):
             sender.sendto(b"@made%d\n" % k + frames.encoded(ROWS[:10], 0), to)
         wait_for(lambda: udp.rejected == 12)
+        wait_for(lambda: len(live.hub.devices) == 3)
         assert list(live.hub.devices) == ["made0", "made1", "made2"]
         sender.sendto(b"@made1\n" + frames.encoded(ROWS[10:20], 10), to)  # whoever has a place keeps it
         arrived(live, "made1", 20)
