@@ -24,8 +24,8 @@ def _plain_output(method: Any, state: Any, sample: Sample) -> Output:
     return Output(sample.dt, state.attitude, sample.gyr - state.bias, state.bias, ABSENT, ABSENT, 0)
 
 
-start = dispatched("start")
-step = dispatched("step")
+start = dispatched("start", inlined=False)
+step = dispatched("step", polished=True)  # without, `two-stage` takes a sixth longer a sample
 output = dispatched("output", default=_plain_output)
 
 
@@ -33,7 +33,7 @@ def _plain_restart(thing: Any, state: Any, sample: Sample, bias: Vec3) -> Any:
     return start(thing, sample, bias)
 
 
-restart = dispatched("restart", default=_plain_restart)
+restart = dispatched("restart", default=_plain_restart, inlined=False)
 
 
 @compiled

@@ -185,11 +185,14 @@ def method_of(numba_type: Any, name: str) -> Any:
     return method if inspect.isfunction(method) else None
 
 
-def dispatched(name: str, default: Callable[..., Any] | None = None) -> Callable[..., Any]:
+def dispatched(
+    name: str, default: Callable[..., Any] | None = None, *, inlined: bool = True, polished: bool = False
+) -> Callable[..., Any]:
     """A function ``f(thing, *args)`` that calls ``thing.name(*args)``, in Python and inside kernels.
 
     Dispatch on the class compiles once and caches; a method passed as an argument would recompile in every process.
-    *default* takes the same arguments and stands in where the class has no such method.
+    *default* takes the same arguments and stands in where the class has no such method. What seldom runs need not be
+    *inlined*. *polished* is optimised once more, as a function of its own: for what runs at every sample.
     """
 
     def call(thing: Any, *args: Any) -> Any:
@@ -199,14 +202,13 @@ def dispatched(name: str, default: Callable[..., Any] | None = None) -> Callable
         return getattr(thing, name)(*args)
 
     if not PLAIN_PYTHON:
-        options = _INLINE | {"forceinline": name not in ("start", "restart")}
+        options = _INLINE | {"forceinline": inlined}
 
         @overload(call, jit_options=options, strict=False)  # strict: its parameters would have to have these names
         def _(thing, *args):
             method = method_of(thing, name) or default
-            if name != "step" or method is None:
+            if method is None or not polished:
                 return method
-            # One more function around it is optimised once more: `two-stage` is a sixth slower without.
             kernel = numba.njit(method, **options)
             return lambda thing, *args: kernel(thing, *args)
 
