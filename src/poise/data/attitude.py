@@ -5,13 +5,14 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from poise.data import arrow, axes
-from poise.data.flags import GAP, LOST, RESET, SENTENCES, Flag, valid
+from poise.data.flags import GAP, LOST, Flag, valid
+from poise.data.reasons import Reason, Reset, reasons, resets
 from poise.errors import RecordingError
 from poise.math import arrays
 
@@ -33,31 +34,6 @@ COLUMNS = 16
 _H = np.sqrt(0.5)
 _FROM_ENU = {"enu": np.array([1.0, 0, 0, 0]), "ned": np.array([0, _H, _H, 0]), "nwu": np.array([_H, 0, 0, -_H])}
 _SIGMA_ORDER = {"enu": [0, 1, 2], "ned": [1, 0, 2], "nwu": [1, 0, 2]}
-
-
-class Reason(NamedTuple):
-    """A stretch of rows that carry the same flag."""
-
-    flag: Flag
-    start: float
-    """s, time of the first row"""
-    end: float
-    """s, time of the last row"""
-    samples: int
-    sentence: str
-
-    def __str__(self) -> str:
-        return f"{self.start:.2f}-{self.end:.2f} s ({self.samples} samples): {self.sentence}"
-
-
-class Reset(NamedTuple):
-    """A row at which the method was started anew."""
-
-    row: int
-    time: float
-    """s"""
-    delta: tuple[float, float, float]
-    """rad: the rotation vector, about the frame's axes, from the attitude of the row before to this one's"""
 
 
 @dataclass(frozen=True)
@@ -366,30 +342,11 @@ class Attitude:
 
         Stretches of one flag less than *bridge* (s) apart are told as one.
         """
-        found = []
-        known = np.isfinite(self.time)
-        clock = np.maximum.accumulate(np.where(known, self.time, self.time[known][0] if known.any() else 0.0))
-        for flag in Flag:
-            rows = np.flatnonzero(self.flags & np.uint32(flag))
-            if len(rows):
-                cuts = np.flatnonzero((np.diff(rows) > 1) & (np.diff(clock[rows]) > bridge)) + 1
-                for stretch in np.split(rows, cuts):
-                    start, end = float(clock[stretch[0]]), float(clock[stretch[-1]])
-                    found.append(Reason(flag, start, end, len(stretch), SENTENCES[flag]))
-        return sorted(found, key=lambda reason: (reason.start, reason.flag))
+        return reasons(self.time, self.flags, bridge)
 
     def resets(self) -> list[Reset]:
         """Every row at which the method was started anew, and by how much that turned the attitude.
 
         Whoever integrates or controls on the attitude takes the turn out instead of following it.
         """
-        rows = np.flatnonzero(self.flags & np.uint32(RESET))
-        known = np.isfinite(self.quat[:, 0])
-        before = np.maximum.accumulate(np.where(known, np.arange(len(self)), -1))
-        rows = rows[(rows > 0) & known[rows]]
-        rows = rows[before[rows - 1] >= 0]
-        turns = arrays.rotation_vector(arrays.multiply(self.quat[rows], arrays.conjugate(self.quat[before[rows - 1]])))
-        return [
-            Reset(int(row), float(self.time[row]), (float(x), float(y), float(z)))
-            for row, (x, y, z) in zip(rows, turns, strict=True)
-        ]
+        return resets(self.time, self.quat, self.flags)

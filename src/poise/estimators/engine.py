@@ -20,7 +20,6 @@ from poise.errors import MethodError, RecordingError, StateError
 from poise.estimators.loop import (
     ACC,
     ACC_AGE,
-    ASIDE,
     CLOCK,
     DELTA,
     FIRST,
@@ -39,12 +38,11 @@ from poise.estimators.loop import (
     state_of,
 )
 from poise.estimators.parameters import as_dict, prepared
-from poise.estimators.saving import copied, differences, filled, flat, sealed, unsealed
-from poise.estimators.starting import checked_start
+from poise.estimators.saving import copied, differences, filled, flat, read_saved, sealed
+from poise.estimators.starting import checked_start, start_quaternion, three_finite
 from poise.estimators.wrapping import core, innermost, name_of, slewed, wrapped
 from poise.math import arrays
 from poise.math.compiled import CompileError, direct
-from poise.math.quaternions import Quat
 from poise.math.vectors import Vec3
 
 Floats = NDArray[np.float64]
@@ -77,14 +75,14 @@ class Stream:
         slew: float | None = None,
     ) -> None:
         self.method = method
-        self._made_of = (method, start, tuple(_three("bias", bias)), guard, rest_bias, silence, start_from, slew)
+        self._made_of = (method, start, tuple(three_finite("bias", bias)), guard, rest_bias, silence, start_from, slew)
         self._running = prepared(slewed(wrapped(method, guard, rest_bias), slew))
         if not isinstance(silence, (int, float)) or not silence >= 0.0:
             raise MethodError(f"silence: expected seconds, found {silence!r}")
         self._declination = float(getattr(core(method), "declination", 0.0))
         self._provenance = Provenance(name_of(method), as_dict(self._running))
-        self._start = None if start is None else _start_quat(start)
-        self._bias = Vec3(*_three("bias", bias))
+        self._start = None if start is None else start_quaternion(start)
+        self._bias = Vec3(*three_finite("bias", bias))
         self._known = None if start_from is None else checked_start(core(method), start_from, self._bias)
         if self._known is not None:
             self._bias = Vec3(*self._known["gyr_bias"]["value"])
@@ -281,40 +279,25 @@ class Stream:
         Raises :class:`StateError` where *saved* is not a stream's state, is damaged, or is that of another method or
         parameter set; the stream is then what it was.
         """
-        kept = unsealed(saved)
-        try:
-            aside, heading, latest = np.array(kept["aside"], float), kept["heading_reference"], kept["latest"]
-            turn = aside[TURN : TURN + 4]
-            if aside.shape != (ASIDE,) or not abs(np.linalg.norm(turn) - 1.0) < 1e-6:
-                raise ValueError("aside")
-            if heading not in ("true", "magnetic", "arbitrary"):
-                raise ValueError("heading_reference")
-            row = None
-            if latest is not None:
-                table = np.array([latest[0]], float)
-                if table.shape != (1, COLUMNS):
-                    raise ValueError("latest")
-                flags = np.array([latest[1]], np.uint32)
-                row = Attitude(aside[[CLOCK]], table, flags, heading, "enu", self._provenance)
-            identity, numbers, reset = kept["method"], kept["state"], bool(kept["heading_reset"])
-        except (ValueError, KeyError, TypeError, IndexError, OverflowError) as problem:
-            raise StateError(f"not a saved stream: {problem!r}; give the bytes that Stream.save() returned") from None
-        if identity != self.identity:
+        kept = read_saved(saved)
+        if kept.identity != self.identity:
             raise StateError(
-                f"the saved stream differs from this one: {differences(str(identity), self.identity)}; "
+                f"the saved stream differs from this one: {differences(str(kept.identity), self.identity)}; "
                 "restore it into a Stream with the same method and parameters"
             )
-        memory = run = None
-        if numbers is not None:
+        memory, run, aside, row = None, None, kept.aside, None
+        if kept.numbers is not None:
             template = begin(self._running, np.full((1, WIDTH), nan), self._bias, aside)
-            memory = recall(self._running, filled(state_of(template), numbers), aside)
+            memory = recall(self._running, filled(state_of(template), kept.numbers), aside)
             empty = np.empty((0, WIDTH)), np.empty((0, COLUMNS)), np.empty(0, np.uint32)
             first = aside[FIRST]
             advance(memory, *empty)
             aside[FIRST] = first  # no row has been seen by that
             run = direct(advance, memory, *empty)
+        if kept.latest is not None:
+            row = Attitude(aside[[CLOCK]], *kept.latest, kept.heading, "enu", self._provenance)
         self._memory, self._run, self._aside = memory, run, aside
-        self._heading, self._reset, self._latest = heading, reset, row
+        self._heading, self._reset, self._latest = kept.heading, kept.reset, row
         return self
 
     def __reduce__(self) -> Any:
@@ -369,32 +352,6 @@ def _reason(problem: Exception) -> str:
     """The line of a compiler's report that says what is wrong."""
     lines = [line.strip() for line in str(problem).splitlines() if line.strip()]
     return next((line for line in lines if not line.startswith(("Failed", "During", "File"))), lines[0])
-
-
-def _three(name: str, values: ArrayLike) -> list[float]:
-    try:
-        array = np.asarray(values, float)
-    except (TypeError, ValueError):
-        array = np.empty(0)
-    if array.shape != (3,) or not np.isfinite(array).all():
-        raise MethodError(f"{name}: expected three finite numbers, found {values!r}")
-    return [float(v) for v in array]
-
-
-def _start_quat(start: Attitude | ArrayLike) -> Quat:
-    if isinstance(start, Attitude):
-        known = np.flatnonzero(np.isfinite(start.to("enu").quat).all(axis=1))
-        if not len(known):
-            raise RecordingError("start: the attitude given has no row that is known")
-        start = start.to("enu").quat[known[0]]
-    try:
-        quat = np.asarray(start, float)
-    except (TypeError, ValueError):
-        quat = np.empty(0)
-    length = float(np.linalg.norm(quat)) if quat.shape == (4,) else nan
-    if not 0.5 < length < 2.0:
-        raise RecordingError(f"start: expected a unit quaternion w x y z (4,), found {start!r}")
-    return Quat(*(float(v) for v in quat / length))
 
 
 def _turned(row: Attitude, turn: Floats) -> Attitude:

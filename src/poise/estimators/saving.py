@@ -4,11 +4,29 @@ from __future__ import annotations
 
 import hashlib
 import json
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from poise.data.attitude import COLUMNS, HeadingReference
 from poise.errors import StateError
+from poise.estimators.loop import ASIDE, TURN
+
+
+class Saved(NamedTuple):
+    """What a stream needs to go on."""
+
+    identity: Any
+    """of the method with its wrappers and parameters"""
+    numbers: Any
+    """the state's, in its shape; None where no sample had come"""
+    aside: NDArray[np.float64]
+    heading: HeadingReference
+    reset: bool
+    """whether the heading was set by hand"""
+    latest: tuple[NDArray[np.float64], NDArray[np.uint32]] | None
+    """the last row's table (1, 16) and flags (1,)"""
 
 
 def sealed(kept: dict[str, Any]) -> bytes:
@@ -32,7 +50,30 @@ def unsealed(saved: bytes) -> dict[str, Any]:
             raise TypeError("stream")
         return kept
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as problem:
-        raise StateError(f"not a saved stream: {problem!r}; give the bytes that Stream.save() returned") from None
+        raise _no_stream(problem) from None
+
+
+def read_saved(saved: bytes) -> Saved:
+    """What :meth:`Stream.save` put into *saved*. Raises :class:`StateError` where it is damaged or none."""
+    kept = unsealed(saved)
+    try:
+        aside, heading, latest = np.array(kept["aside"], float), kept["heading_reference"], kept["latest"]
+        if aside.shape != (ASIDE,) or not abs(np.linalg.norm(aside[TURN : TURN + 4]) - 1.0) < 1e-6:
+            raise ValueError("aside")
+        if heading not in ("true", "magnetic", "arbitrary"):
+            raise ValueError("heading_reference")
+        row = None
+        if latest is not None:
+            row = np.array([latest[0]], float), np.array([latest[1]], np.uint32)
+            if row[0].shape != (1, COLUMNS):
+                raise ValueError("latest")
+        return Saved(kept["method"], kept["state"], aside, heading, bool(kept["heading_reset"]), row)
+    except (ValueError, KeyError, TypeError, IndexError, OverflowError) as problem:
+        raise _no_stream(problem) from None
+
+
+def _no_stream(problem: Exception) -> StateError:
+    return StateError(f"not a saved stream: {problem!r}; give the bytes that Stream.save() returned")
 
 
 def differences(saved: str, own: str) -> str:
