@@ -200,7 +200,6 @@ def test_a_compass_heading_is_a_turn_the_other_way() -> None:
         ("ahrs-madgwick", "NWU", "rad/s", 1),
         ("ahrs-mahony", "ENU", "rad/s", 1),
         ("ahrs-ekf", "ENU", "rad/s", -1),
-        ("ahrs-ekf-ned", "NED", "rad/s", -1),
     ],
 )
 def test_other_packages_have_the_frames_that_the_adapters_say(name: str, frame: str, gyr: str, acc_sign: int) -> None:
@@ -214,9 +213,7 @@ def test_other_packages_have_the_frames_that_the_adapters_say(name: str, frame: 
     if name == "ahrs-ekf":  # its field of Munich points 3.4° east of north
         assert found.convention["turn_about_up_deg"] == pytest.approx(3.4, abs=0.3)
     recording = measure(forearm(30.0, 100.0, seed=8), PERFECT)
-    peer = PEERS[
-        {"imufusion-enu": "imufusion", "imufusion-ned": "imufusion", "ahrs-ekf-ned": "ahrs-ekf"}.get(name, name)
-    ]
+    peer = PEERS[{"imufusion-enu": "imufusion", "imufusion-ned": "imufusion"}.get(name, name)]
     names: dict[str, Any] = {}
     exec(found.adapter, names)
     apart = np.degrees(angle_between(names["attitude"](recording).quat, peer.attitude(recording).quat))[1000:]

@@ -34,7 +34,7 @@ Floats = NDArray[np.float64]
 INERTIA = np.array([[0.02, 0.002, 0.0], [0.002, 0.03, -0.001], [0.0, -0.001, 0.04]])
 DT = 0.005
 PD = AttitudeControl.design(INERTIA, 1.0)
-few = settings(max_examples=15, deadline=None)
+few = settings(max_examples=8, deadline=None)
 seeds = st.integers(0, 10_000)
 
 

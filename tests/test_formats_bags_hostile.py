@@ -220,7 +220,7 @@ def test_the_command_tells_one_line(tmp_path: Path, capsys: pytest.CaptureFixtur
 def test_flipped_bytes_are_read_or_refused(tmp_path: Path, kind: str) -> None:
     content = save(tmp_path / "a", [*imu(), *mag()], kind).read_bytes()
     path = tmp_path / "b"
-    for seed in range(8):
+    for seed in range(5):
         rng = np.random.default_rng(seed)
         flipped = bytearray(content)
         for place in rng.integers(len(flipped), size=20):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -73,8 +74,13 @@ def same(parts: list[poise.Recording], whole: poise.Recording) -> None:
     np.testing.assert_array_equal(found.truth.flags, whole.truth.flags)
 
 
-@pytest.mark.parametrize("kind", ["csv", "csv-16", "csv-cr", "parquet", "npz"])
-@pytest.mark.parametrize("rows", [1, 333, 10_000])
+@pytest.mark.parametrize(
+    ("kind", "rows"),
+    [
+        *product(["csv", "csv-16", "csv-cr", "parquet", "npz"], [333]),
+        *product(["csv", "parquet", "npz"], [1, 10_000]),
+    ],
+)
 @pytest.mark.usefixtures("small")
 def test_chunks_are_the_whole(tmp_path: Path, kind: str, rows: int) -> None:
     path = foreign(tmp_path, made(), kind)
@@ -103,7 +109,7 @@ def test_another_process_goes_on_anywhere(tmp_path: Path, kind: str) -> None:
     path = foreign(tmp_path, made(), kind)
     told = UNITS.get(kind)
     whole = poise.read(path, units=told)
-    for stop in range(ROWS // 250 + 1):
+    for stop in range(0, ROWS // 250 + 1, 1 if kind in ("csv", "parquet") else 3):
         first = poise.read_chunks(path, 250, units=told)
         before = [part for _, part in zip(range(stop), first, strict=False)]
         state = first.state()

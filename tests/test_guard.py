@@ -181,7 +181,7 @@ def test_packets_whose_pace_changes_are_followed_again(rate: float) -> None:
     time = np.concatenate([np.arange(3000) / 100.0, 30.0 + np.arange(int(30 * rate)) / rate])
     gyr = np.tile([0.0, 0.0, 1.0], (len(time), 1))
     acc = np.tile([0.0, 0.0, 9.80665], (len(time), 1)) + 0.01 * np.random.default_rng(1).normal(size=(len(time), 3))
-    attitude = poise.estimate(METHOD, poise.Recording(in_packets(time, 1), gyr, acc), rest_bias=False)
+    attitude = poise.estimate(METHOD, poise.Recording(in_packets(time, 1), gyr, acc))
     heading = np.unwrap(2.0 * np.arctan2(attitude.quat[:, 3], attitude.quat[:, 0]))
     late = time >= 40.0
     assert np.polyfit(time[late], heading[late], 1)[0] == pytest.approx(1.0, abs=0.03)

@@ -34,12 +34,12 @@ ORACLES: dict[type, Callable[..., oracles.Answer]] = {
 def recording(name: str) -> poise.Recording:
     """Some seconds that start with a sample of every sensor; "real" starts at rest, "wild" in fast motion, far from truth."""
     if name not in ("real", "wild"):
-        motion = {"forearm": forearm, "phone": phone}[name](8.0, 100.0, seed=3)
+        motion = {"forearm": forearm, "phone": phone}[name](5.0, 100.0, seed=3)
         return measure(motion, seed=4)
     whole = poise.read(data_path("broad", "21_undisturbed_fast_combined.mat"))
     assert whole.moving is not None
     first = whole.time[np.argmax(whole.moving)] + (-3.0 if name == "real" else 40.0)
-    whole = whole[(whole.time >= first) & np.isfinite(whole.acc + whole.mag).all(axis=1)]
+    whole = whole[(whole.time >= first) & np.isfinite(whole.acc + whole.mag).all(axis=1)][::2]
     return whole.between(whole.time[0], whole.time[0] + 5.0)
 
 

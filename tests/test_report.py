@@ -64,8 +64,12 @@ def hostile(comparison: Comparison) -> Comparison:
     return poise.compare(recording, methods, limit_deg=0.5)
 
 
-def test_nothing_is_loaded_from_anywhere(comparison: Comparison) -> None:
-    text = report([comparison], command="poise compare arm.csv --report arm.html")
+@pytest.fixture(scope="module")
+def text(comparison: Comparison) -> str:
+    return report([comparison], command="poise compare arm.csv --report arm.html")
+
+
+def test_nothing_is_loaded_from_anywhere(text: str) -> None:
     page = Page(text)
     assert page.open == []
     assert all(reference.startswith(("#", "data:image/png")) for reference in page.references)
@@ -75,8 +79,7 @@ def test_nothing_is_loaded_from_anywhere(comparison: Comparison) -> None:
     assert "poise compare arm.csv --report arm.html" in text
 
 
-def test_the_report_holds_what_was_compared(comparison: Comparison) -> None:
-    text = report([comparison])
+def test_the_report_holds_what_was_compared(comparison: Comparison, text: str) -> None:
     rmse = comparison.runs[0].figures()["total"]["rmse"]
     for words in ("an arm", f"{rmse:.2f}", "12.0 s", "Settings of every estimator", "mag_noise", "inclination only"):
         assert words in text
@@ -85,8 +88,7 @@ def test_the_report_holds_what_was_compared(comparison: Comparison) -> None:
     assert text.count("<svg") == 6  # three pictures, each for a desk and for a phone
 
 
-def test_pictures_follow_the_page_s_colours(comparison: Comparison) -> None:
-    text = report([comparison])
+def test_pictures_follow_the_page_s_colours(text: str) -> None:
     style, drawn = text.split("</style>", 1)
     light, dark = style.split("prefers-color-scheme: dark", 1)
     for name in NAMES.values():

@@ -36,7 +36,7 @@ def allan(values: np.ndarray, rate: float, seconds: float) -> np.ndarray:
 @pytest.mark.parametrize("name", [*parts.INERTIAL])
 def test_the_allan_deviation_of_white_noise_is_the_data_sheets_density_over_the_root_of_time(name: str) -> None:
     stated, sensor = parts.INERTIAL[name], parts.part(name)
-    packets = sampled(Device(sensor, 200.0, seed=5), 120.0)
+    packets = sampled(Device(sensor, 200.0, seed=5), 60.0)
     gyr, acc = np.array([p.gyr for p in packets]), np.array([p.acc for p in packets])
     for seconds in (0.1, 0.5):  # a bias that walks counts for more only later
         found = np.degrees(allan(gyr, 200.0, seconds)) * np.sqrt(seconds)

@@ -85,7 +85,9 @@ def test_armbands_weights_of_one_leave_the_gyroscope_alone() -> None:
     recording = measure(forearm(20.0, 100.0, 2), PERFECT)
     alone = poise.Armband(alpha=1.0, beta=1.0, zeta=1.0)
     magnet = replace(recording, mag=recording.mag[:, [1, 0, 2]])
-    a, b = (poise.estimate(alone, r, start=recording.truth, rest_bias=False).quat for r in (recording, magnet))
+    a, b = (
+        poise.estimate(alone, r, start=recording.truth, rest_bias=False, guard=None).quat for r in (recording, magnet)
+    )
     moving = slice(500, None)  # after the start, which is a mean of acc and mag
     turned = arrays.multiply(a, arrays.conjugate(b))[moving]
     assert np.ptp(turned, axis=0).max() < 1e-9
@@ -181,7 +183,7 @@ def test_gated_holds_an_upright_phone(pitch: float) -> None:
     recording = upright(pitch, np.array([0.0, 0.0, 0.2]))
 
     def at_the_end(method: Any) -> float:
-        attitude = poise.estimate(method, recording, start=recording.truth, rest_bias=False)
+        attitude = poise.estimate(method, recording, start=recording.truth, rest_bias=False, guard=None)
         return float(np.degrees(poise.evaluate(attitude, recording).total[-1]))
 
     assert at_the_end(poise.Gated()) < 2.0

@@ -26,7 +26,6 @@ def _proper() -> Floats:
 
 MATRICES = _proper()
 QUATS = np.array([arrays.from_matrix(matrix) for matrix in MATRICES])
-IDENTITY = QUATS[0]
 
 
 def earth_name(matrix: Floats) -> str:

@@ -43,8 +43,20 @@ def rotate(q: Floats, v: Floats) -> Floats:
     """v turned by q, row by row."""
     q, v = np.asarray(q, float), np.asarray(v, float)
     axis = q[..., 1:]
-    t = 2.0 * np.cross(axis, v)
-    return np.asarray(v + q[..., :1] * t + np.cross(axis, t))
+    t = 2.0 * _cross(axis, v)
+    return np.asarray(v + q[..., :1] * t + _cross(axis, t))
+
+
+def _cross(a: Floats, b: Floats) -> Floats:
+    """a × b, row by row: the same bits as numpy's, which takes twice the time in short ones."""
+    ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
+    bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
+    x = ay * bz - az * by
+    product = np.empty((*x.shape, 3))
+    product[..., 0] = x
+    product[..., 1] = az * bx - ax * bz
+    product[..., 2] = ax * by - ay * bx
+    return product
 
 
 def matrix(q: Floats) -> Floats:
