@@ -19,6 +19,8 @@ from helpers import angle_between
 from poise import Recording
 from poise.conformance import Conformance, conform, frames, outputs
 from poise.errors import MethodError
+from poise.math.quaternions import Quat, attitude_of, exp
+from poise.math.vectors import Vec3
 from poise.peers import PEERS, installed
 from poise.peers.raw import RAW
 from poise.simulation import PERFECT, forearm, measure
@@ -198,7 +200,6 @@ def test_a_compass_heading_is_a_turn_the_other_way() -> None:
         ("imufusion-enu", "ENU", "deg/s", 1),
         ("imufusion-ned", "NED", "deg/s", 1),
         ("ahrs-madgwick", "NWU", "rad/s", 1),
-        ("ahrs-mahony", "ENU", "rad/s", 1),
         ("ahrs-ekf", "ENU", "rad/s", -1),
     ],
 )
@@ -310,12 +311,10 @@ class Updater:
         self.quat = np.array([1.0, 0.0, 0.0, 0.0])
 
     def update(self, gyr: Floats, acc: Floats, mag: Floats) -> None:
-        up = acc / np.linalg.norm(acc)
-        east = np.cross(mag, up) / np.linalg.norm(np.cross(mag, up))
-        seen = Rotation.from_matrix([east, np.cross(up, east), up])
-        now = Rotation.from_quat(self.quat[[1, 2, 3, 0]]) * Rotation.from_rotvec(gyr * self.dt)
-        now = Rotation.from_rotvec(0.05 * (seen * now.inv()).as_rotvec()) * now
-        self.quat[:] = now.as_quat()[[3, 0, 1, 2]]
+        seen = np.array(attitude_of(Vec3(*acc.tolist()), Vec3(*mag.tolist()), 0.0))
+        now = np.array(Quat(*self.quat.tolist()) * exp(Vec3(*(self.dt * gyr).tolist())))
+        now += 0.05 * (np.copysign(1.0, now @ seen) * seen - now)
+        self.quat[:] = now / np.linalg.norm(now)
 
 
 def maker() -> Updater:
@@ -383,11 +382,10 @@ def test_what_cannot_be_run_says_why(estimator: Any, says: str) -> None:
 
 def gyroscope_alone(time: NDArray[np.float64], gyr: NDArray[np.float64]) -> NDArray[np.float64]:
     """Adds up turns from the identity; the reverse direction."""
-    turn = Rotation.from_rotvec(np.vstack([np.zeros((1, 3)), np.diff(time)[:, None] * gyr[1:]]))
-    quat = [turn[0]]
-    for each in turn[1:]:
-        quat.append(quat[-1] * each)
-    return np.array([q.inv().as_quat() for q in quat])
+    quat = [Quat(1.0, 0.0, 0.0, 0.0)]
+    for each in (np.diff(time)[:, None] * gyr[1:]).tolist():
+        quat.append(quat[-1] * exp(Vec3(*each)))
+    return np.array(quat)[:, [1, 2, 3, 0]] * [-1, -1, -1, 1]
 
 
 def test_of_a_gyroscope_alone_the_earth_frame_cannot_be_told() -> None:

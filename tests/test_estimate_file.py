@@ -138,7 +138,13 @@ def test_other_work_begins_anew(log: Path, tmp_path: Path, monkeypatch: pytest.M
         ).resumed
 
     assert after() == 900
-    assert after(rows=301) == after(method=poise.TwoStage()) == after(frame="nwu") == after(rest_bias=False) == 0
+    assert (
+        after(rows=301)
+        == after(method=poise.TwoStage())
+        == after(frame="nwu")
+        == after(guard=None, rest_bias=False)
+        == 0
+    )
     assert after(start=(1.0, 0, 0, 0)) == after(correct=lambda r: r.remap("y -x z"), corrected_by="y -x z") == 0
     changed = tmp_path / log.name
     changed.write_bytes(log.read_bytes().replace(b"9.8", b"9.7", 1))

@@ -70,9 +70,8 @@ def write_report(path: str | Path, comparisons: Sequence[Comparison], **facts: A
     """Write :func:`report` to *path*: the whole file or nothing. Raises :class:`FormatError` where it cannot be written."""
     from poise.formats.saving import replacing
 
-    page = report(comparisons, **facts).encode("utf-8", errors="replace")
-    with replacing(Path(path)) as file:
-        file.write(page)
+    with replacing(Path(path)) as file:  # where it cannot be written, that is said before anything is drawn
+        file.write(report(comparisons, **facts).encode("utf-8", errors="replace"))
 
 
 # -- a recording --------------------------------------------------------------------------------------------------
