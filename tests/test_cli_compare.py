@@ -28,7 +28,16 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_compare_json_with_good_and_bad_files(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def blank(_figure: Any, file: Any, **_: Any) -> None:
+    """A picture of nothing, in no time."""
+    svg = '<svg viewBox="0 0 1 1"></svg>'
+    file.write(svg) if hasattr(file, "write") else Path(file).write_text(svg)
+
+
+def test_compare_json_with_good_and_bad_files(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("matplotlib.figure.Figure.savefig", blank)
     arguments = ["made.csv", "blind.csv", "empty.csv", "nowhere.csv", "-m", "two-stage", "-m", "tilt", "--json"]
     assert run(["compare", *arguments, "--report", "all.html"]) == 1
     captured = capsys.readouterr()
@@ -51,7 +60,8 @@ def test_compare_tells_and_draws(folder: Path, capsys: pytest.CaptureFixture[str
     assert (folder / "a.svg").read_bytes().startswith(b"<?xml")
 
 
-def test_the_command_in_the_report_makes_it_again(folder: Path) -> None:
+def test_the_command_in_the_report_makes_it_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("matplotlib.figure.Figure.savefig", blank)
     odd = folder / "it's $(odd).csv"
     (folder / "made.csv").rename(odd)
     options = ["--rate", "100", "--remap=-y x z", "--limit", "3.123456789"]
@@ -180,12 +190,6 @@ def test_demo_writes_everything(
     )
     assert "Mean RMS error over 3 recordings" in capsys.readouterr().out
     assert run(["demo", "-o", "made.csv"]) == 1
-
-
-def blank(_figure: Any, file: Any, **_: Any) -> None:
-    """A picture of nothing, in no time."""
-    svg = '<svg viewBox="0 0 1 1"></svg>'
-    file.write(svg) if hasattr(file, "write") else Path(file).write_text(svg)
 
 
 def test_demo_writes_over_nothing_but_its_own(
