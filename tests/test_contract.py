@@ -254,6 +254,7 @@ def test_a_known_bias_is_taken_away(method: Any) -> None:
     without = poise.estimate(method, perfect, guard=None, rest_bias=False)
     assert angle_between(with_bias.quat, without.quat).max() < 1e-6
     np.testing.assert_allclose(with_bias.bias, without.bias + bias, atol=1e-9)  # what it learned itself is the same
+    np.testing.assert_allclose(poise.estimate(method, biased[:5], bias=bias).bias, np.tile(bias, (5, 1)), atol=1e-3)
 
 
 @every_method

@@ -76,10 +76,7 @@ def same(parts: list[poise.Recording], whole: poise.Recording) -> None:
 
 @pytest.mark.parametrize(
     ("kind", "rows"),
-    [
-        *product(["csv", "csv-16", "csv-cr", "parquet", "npz"], [333]),
-        *product(["csv", "parquet", "npz"], [1, 10_000]),
-    ],
+    [("csv-16", 333), ("csv-cr", 333), *product(["csv", "parquet", "npz"], [1, 333, 10_000])],
 )
 @pytest.mark.usefixtures("small")
 def test_chunks_are_the_whole(tmp_path: Path, kind: str, rows: int) -> None:

@@ -96,7 +96,7 @@ class Fit:
     @cached_property
     def up(self) -> Floats:
         """(3,) up in the output's Earth frame."""
-        w, x, y, z = self.earth.tolist()  # of one vector numpy takes ten times as long, and a fit is one of thousands
+        w, x, y, z = self.earth.tolist()  # 1 µs where numpy takes 14 for one vector; fits are thousands
         return np.array([2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)])
 
     @cached_property

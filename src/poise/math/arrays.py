@@ -48,7 +48,7 @@ def rotate(q: Floats, v: Floats) -> Floats:
 
 
 def _cross(a: Floats, b: Floats) -> Floats:
-    """a × b, row by row: the same bits as numpy's, which takes 1.5 to 3 times as long."""
+    """a × b, row by row: the same bits as numpy's, with which `rotate` takes 1.5 to 3 times as long."""
     ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
     bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
     x = ay * bz - az * by
