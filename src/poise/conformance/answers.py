@@ -39,7 +39,7 @@ def answer(name: str, given: Any, n: int) -> Answer:
         raise MethodError(f"{name} returned nothing; {_expected(n)}")
     try:
         values = np.array(given, dtype=float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise MethodError(f"{name} returned {_described(given)}; {_expected(n)}") from None
     if values.shape == (n, 9):
         values = values.reshape(n, 3, 3)

@@ -17,6 +17,7 @@ from poise.errors import MethodError
 from poise.estimators.loop import state_of
 from poise.estimators.parameters import prepared
 from poise.estimators.protocol import start, step
+from poise.math import arrays
 from poise.math.compiled import compiled, entry
 from poise.math.memory import Memory
 from poise.math.quaternions import Quat
@@ -199,10 +200,7 @@ def _numbers(target: Target) -> Floats:
 
 
 def _finite(name: str, values: ArrayLike, size: int, *, missing: bool = False) -> Floats:
-    try:
-        found = np.array(values, float)
-    except (TypeError, ValueError):
-        found = np.empty(0)
+    found = arrays.numbers(values)
     if found.shape != (size,) or not (missing or np.isfinite(found).all()):
         raise MethodError(f"{name}: expected {size} finite numbers, found {values!r}")
     return found

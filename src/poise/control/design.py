@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from poise.errors import MethodError
+from poise.math import arrays
 from poise.math.matrices import Mat3
 from poise.math.vectors import Vec3
 
@@ -43,10 +44,7 @@ def lqr(a: ArrayLike, b: ArrayLike, q: ArrayLike, r: ArrayLike) -> Floats:
 
 def inertia_matrix(name: str, inertia: Matrix) -> Floats:
     """(3, 3) kg m² from one number, three about the axes, or a whole matrix."""
-    try:
-        given = np.array(inertia, float)
-    except (TypeError, ValueError):
-        given = np.empty(0)
+    given = arrays.numbers(inertia)
     if given.shape not in ((), (3,), (3, 3)):
         raise MethodError(f"{name}: inertia: expected one number, three or 3 × 3 (kg m²), found {inertia!r}")
     whole = given if given.shape == (3, 3) else np.diag(np.broadcast_to(given, 3))
@@ -109,10 +107,9 @@ def mat3(matrix: Floats) -> Mat3:
 
 
 def _rows(name: str, matrix: ArrayLike) -> Floats:
-    try:
-        found = np.atleast_2d(np.array(matrix, float))
-    except (TypeError, ValueError):
-        raise MethodError(f"lqr: {name}: expected a matrix of numbers, found {matrix!r}") from None
+    found = np.atleast_2d(arrays.numbers(matrix))
+    if not found.size:
+        raise MethodError(f"lqr: {name}: expected a matrix of numbers, found {matrix!r}")
     if not np.isfinite(found).all():
         raise MethodError(f"lqr: {name}: expected finite numbers, found {found.tolist()}")
     return found

@@ -259,7 +259,7 @@ def _numbers(name: str, values: Any) -> Floats:
         if array.dtype.kind in "mMcSU" or (array.dtype.kind == "O" and not _holds_numbers(array)):
             raise TypeError(f"its type is {array.dtype}")
         return np.array(array, dtype=np.float64, order="C")
-    except (TypeError, ValueError) as problem:
+    except (TypeError, ValueError, OverflowError) as problem:
         raise RecordingError(f"{name}: expected numbers, found something else ({problem})") from None
 
 

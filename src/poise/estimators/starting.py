@@ -11,16 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 from poise.data.attitude import Attitude
 from poise.data.learned import Learned
 from poise.errors import MethodError, RecordingError
+from poise.math import arrays
 from poise.math.quaternions import Quat
 from poise.math.vectors import Vec3
 
 
 def three_finite(name: str, values: ArrayLike) -> list[float]:
     """*values* as three numbers. Raises :class:`MethodError`, with the parameter's *name*."""
-    try:
-        array = np.asarray(values, float)
-    except (TypeError, ValueError):
-        array = np.empty(0)
+    array = arrays.numbers(values)
     if array.shape != (3,) or not np.isfinite(array).all():
         raise MethodError(f"{name}: expected three finite numbers, found {values!r}")
     return [float(v) for v in array]
@@ -33,10 +31,7 @@ def start_quaternion(start: Attitude | ArrayLike) -> Quat:
         if not len(known):
             raise RecordingError("start: the attitude given has no row that is known")
         start = start.to("enu").quat[known[0]]
-    try:
-        quat = np.asarray(start, float)
-    except (TypeError, ValueError):
-        quat = np.empty(0)
+    quat = arrays.numbers(start)
     length = float(np.linalg.norm(quat)) if quat.shape == (4,) else nan
     if not 0.5 < length < 2.0:
         raise RecordingError(f"start: expected a unit quaternion w x y z (4,), found {start!r}")

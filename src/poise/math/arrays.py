@@ -2,10 +2,20 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+
+
+def numbers(values: Any) -> Floats:
+    """*values*, of a user, as a new array of numbers; one of shape (0,) where they are none."""
+    try:
+        return np.array(values, float)
+    except (TypeError, ValueError, OverflowError):
+        return np.empty(0)
 
 
 def multiply(p: Floats, q: Floats) -> Floats:

@@ -227,10 +227,7 @@ class Monitor:
     def _force(self, acc: ArrayLike | None, n: int) -> Floats:
         if acc is None:
             return self._absent if n == 1 else np.full((n, 3), nan)
-        try:
-            force = np.asarray(acc, float)
-        except (TypeError, ValueError):
-            force = np.empty(0)
+        force = arrays.numbers(acc)
         if force.shape == (3,) and n == 1:
             self._one[0] = force
             return self._one

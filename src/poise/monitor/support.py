@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from poise.errors import MethodError
+from poise.math import arrays
 from poise.monitor.sides import EDGES, NO_EDGES, Directions, Side
 
 Floats = NDArray[np.float64]
@@ -106,10 +107,7 @@ class Support:
 
     def _corners(self) -> Floats:
         """(n, 2) the hull's corners, counter-clockwise."""
-        try:
-            points = np.array(self.polygon, float)
-        except (TypeError, ValueError):
-            points = np.empty(0)
+        points = arrays.numbers(self.polygon)
         if points.ndim != 2 or points.shape[1:] != (2,) or not np.isfinite(points).all():
             raise MethodError(
                 f"Support.polygon: expected points (n, 2), right and forward in m, found {self.polygon!r}"
@@ -140,10 +138,7 @@ def _turn(a: Any, b: Any, c: Any) -> float:
 
 
 def _vector(field: str, value: ArrayLike) -> Floats:
-    try:
-        vector = np.array(value, float)
-    except (TypeError, ValueError):
-        vector = np.empty(0)
+    vector = arrays.numbers(value)
     if vector.shape != (3,) or not np.isfinite(vector).all():
         raise MethodError(f"Support.{field}: expected three numbers (right, forward, up in m), found {value!r}")
     return vector
