@@ -158,10 +158,48 @@ def test_samples_that_come_unevenly_keep_their_stamps() -> None:
     assert away_deg(poise.estimate(METHOD, clean()[kept]), kept).max() < 1.0
 
 
-def in_packets(true: NDArray[np.float64], seed: int) -> NDArray[np.float64]:
-    """Stamps of rows that arrive 4 to 12 at a time: all of a packet have that of its last row."""
-    ends = np.cumsum(np.random.default_rng(seed).integers(4, 13, len(true))) - 1
-    return np.asarray(true[np.minimum(ends[np.searchsorted(ends, np.arange(len(true)))], len(true) - 1)])
+def in_packets(
+    true: NDArray[np.float64], seed: int, *, first: bool = False, late: float = 0.0, apart: float = 0.0, most: int = 12
+) -> NDArray[np.float64]:
+    """Stamps of rows that arrive 4 to *most* at a time: all of a packet have that of its last row, or of its *first*, or of
+    when it was received, *late* s after its last in the mean, or when each was read, *apart* s after the one before."""
+    rng, rows = np.random.default_rng(seed), np.arange(len(true))
+    ends = np.cumsum(rng.integers(4, most + 1, len(true))) - 1
+    packet = np.searchsorted(ends, rows)
+    begins = np.append(0, ends + 1)[packet]
+    stamps = true[begins if first else np.minimum(ends[packet], len(true) - 1)]
+    return np.maximum.accumulate(stamps + late * rng.exponential(size=len(true))[packet]) + apart * (rows - begins)
+
+
+@pytest.mark.parametrize("rate", [25.0, 50.0, 286.0])
+@pytest.mark.parametrize(
+    "kind", [{}, {"first": True}, {"late": 0.004}, {"late": 0.002, "apart": 1e-4}, {"apart": 5e-5, "most": 6}]
+)
+def test_rows_that_come_in_packets_lose_no_rotation(rate: float, kind: dict[str, Any]) -> None:
+    """However they are stamped, also where a packet lasts longer than a gap: 12 rows at 25 Hz are 0.48 s."""
+    recording = measure(forearm(30.0, rate, seed=3), Sensor(jitter=0.0), seed=3)
+    true = poise.estimate(METHOD, recording)
+    attitude = poise.estimate(METHOD, replace(recording, time=in_packets(recording.time, 3, **kind)))
+    assert np.degrees(angle_between(attitude.quat, true.quat)).max() < 1.0  # it was up to 137
+    assert attitude.valid[round(3.0 * rate) :].all()
+    assert len(set(flagged(attitude, Flag.GAP))) <= 1  # where they begin
+
+
+def test_rows_that_are_lost_between_packets_are_a_gap() -> None:
+    recording = measure(forearm(30.0, RATE, seed=3), Sensor(jitter=0.0), seed=3)
+    kept = np.flatnonzero((recording.time < 15.0) | (recording.time > 15.6))
+    attitude = poise.estimate(METHOD, replace(recording, time=in_packets(recording.time, 3))[kept])
+    assert 15.0 <= attitude.time[flagged(attitude, Flag.GAP)[-1]] <= 15.8
+
+
+def test_packets_that_begin_in_the_middle_are_followed() -> None:
+    recording = measure(forearm(40.0, RATE, seed=3), Sensor(jitter=0.0), seed=3)
+    half = len(recording) // 2
+    stamps = np.append(recording.time[:half], in_packets(recording.time[half:], 3, apart=5e-5))
+    true, attitude = poise.estimate(METHOD, recording), poise.estimate(METHOD, replace(recording, time=stamps))
+    away = np.degrees(angle_between(attitude.quat, true.quat))
+    assert away[:half].max() < 1e-6
+    assert away[half + 1000 :].max() < 2.0
 
 
 @pytest.mark.parametrize("seed", [11, 13])

@@ -279,6 +279,19 @@ def batched(fewest: int, most: int) -> Injector:
     return inject
 
 
+def bursts(fewest: int, most: int, apart: float) -> Injector:
+    """Rows arrive in batches and a program stamps them as it reads them, *apart* s from one to the next."""
+
+    def inject(recording: Recording, rng: np.random.Generator) -> Injected:
+        injected = batched(fewest, most)(recording, rng)
+        time = injected.recording.time
+        firsts = np.flatnonzero(np.diff(time, prepend=-np.inf) > 0.0)
+        since = np.arange(len(time)) - np.repeat(firsts, np.diff(np.append(firsts, len(time))))
+        return replace(injected, recording=_with(injected.recording, time=time + apart * since))
+
+    return inject
+
+
 def clock_jump(seconds: float) -> Injector:
     """From some row on the clock is off by *seconds*."""
 

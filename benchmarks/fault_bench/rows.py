@@ -10,6 +10,7 @@ from fault_bench.injectors import (
     absent,
     batched,
     bias_step,
+    bursts,
     clipped,
     clock_jump,
     duplicates,
@@ -132,6 +133,7 @@ def _rows_and_stamps() -> list[Fault]:
         Fault("E5", "1 % of rows twice", duplicates(0.01), (ratio(1.02),)),
         Fault("E5", "1 % of rows swapped", swaps(0.01), (ratio(1.02),)),
         Fault("E5", "stamps in batches of 4-12", batched(4, 12), (ratio(1.1),)),
+        Fault("E5", "stamps in bursts of 4-12", bursts(4, 12, 50e-6), (ratio(1.1),)),
     ]
 
 

@@ -6,19 +6,29 @@ from math import floor
 from typing import NamedTuple
 
 from poise.data.flags import CLOCK_JUMP, GAP, JITTER, TIME_DISORDER
+from poise.estimators.guard.packets import (
+    NONE,
+    Packets,
+    begins_packet,
+    counted,
+    followed,
+    in_packets,
+    longest,
+    one_by_one,
+    within_packet,
+)
 from poise.math.compiled import compiled
 
 SHORTEST = 1e-7  # s: a noise density over no time at all would overflow
 _LONGEST = 1e12
 _SHARE = 0.02  # of a new step in the usual one: that of the last 50 rows or so
 _MOST = 0.1  # of the usual step: a longer one counts as that much longer, for a lost row is not a slower sensor
-_FOLLOW, _FOLLOW_PACKETS = 0.01, 0.0001  # of what a stamp that scatters is off, row by row and packet by packet
+_FOLLOW = 0.01  # of what a stamp that scatters is off
 _SCATTER = 4e-4  # (usual step)²: 2 % of it, squared; less is not worth a thought
 _TURNS_BACK = -0.3  # correlation of successive steps. −0.5 where the stamps scatter, and 0 where the samples do
 _FARTHEST = 40.0  # steps
 _OFTEN = 0.005  # of a new row in what is known of the scatter
-_LONG, _ANEW = 5000.0, 30.0  # rows whose mean step is that of stamps that scatter; and once that was another
-_AT_ONCE = 0.3  # of the rows have no stamp of their own: they come in packets
+_LONG = 5000.0  # rows whose mean step is that of stamps that scatter
 
 
 class Pace(NamedTuple):
@@ -32,11 +42,11 @@ class Pace(NamedTuple):
     off: float  # of the last step from the usual one, in usual steps
     scatter: float  # mean square of that
     turns: float  # mean product with the one before
-    at_once: float  # share of the rows without a stamp of their own
     rows: float  # that this is known from, counted up to 5000
+    packets: Packets
 
 
-UNKNOWN = Pace(0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0)
+UNKNOWN = Pace(0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0.0, 0.0, NONE)
 
 
 class Timed(NamedTuple):
@@ -49,12 +59,13 @@ class Timed(NamedTuple):
 
 @compiled
 def evenly(pace: Pace, dt: float, gap: float) -> bool:
-    """Whether a step is an ordinary one, about the usual, and nothing is left to be paid back."""
+    """Whether a step is an ordinary one, about the usual, and nothing is left to be paid back or to be looked at."""
     return (
         0.5 * pace.step < dt < 1.5 * pace.step
         and SHORTEST < dt <= gap
         and pace.ahead == 0.0
         and pace.waiting == 0
+        and not pace.packets.long
         and not _scattered(pace)
     )
 
@@ -67,18 +78,18 @@ def counted_on(pace: Pace, dt: float) -> Pace:
     scatter, turns = pace.scatter, pace.turns
     return Pace(
         step, 0.0, pace.back, 0, 0, off, scatter + _OFTEN * (off * off - scatter),
-        turns + _OFTEN * (off * pace.off - turns), (1.0 - _SHARE) * pace.at_once, min(pace.rows + 1.0, _LONG),
+        turns + _OFTEN * (off * pace.off - turns), min(pace.rows + 1.0, _LONG), one_by_one(pace.packets, step),
     )  # fmt: skip
 
 
 @compiled
 def _scattered(pace: Pace) -> bool:
     """Whether the stamps scatter and the samples do not: a stamp that is late makes one step long and the next one short."""
-    return pace.at_once > _AT_ONCE or (pace.scatter > _SCATTER and pace.turns < _TURNS_BACK * pace.scatter)
+    return in_packets(pace.packets) or (pace.scatter > _SCATTER and pace.turns < _TURNS_BACK * pace.scatter)
 
 
 @compiled
-def timed(pace: Pace, dt: float, repeated: bool, goes_on: bool, gap: float, longest: float) -> Timed:
+def timed(pace: Pace, dt: float, repeated: bool, goes_on: bool, gap: float, longest_loss: float) -> Timed:
     """The time that a row stands for.
 
     *repeated*: it is the very row before, so that it may have been sent twice; *goes_on*: the samples go on from the
@@ -98,27 +109,28 @@ def timed(pace: Pace, dt: float, repeated: bool, goes_on: bool, gap: float, long
             return Timed(_with(pace, usual, 0.0, kept, 0, 0), usual, TIME_DISORDER | CLOCK_JUMP)
         if repeated or usual == 0.0:
             return Timed(_with(pace, usual, pace.ahead, pace.back, waiting, pace.held + 1), 0.0, TIME_DISORDER)
-        return Timed(_without_stamp(pace, waiting), usual, TIME_DISORDER)
+        return Timed(_without_stamp(pace, 0.0), usual, TIME_DISORDER)
 
     left, kept, flags = dt - pace.ahead, pace.back, 0
-    if dt > longest and goes_on and usual > 0.0:
-        return Timed(_with(pace, usual, 0.0, 0.0, 0, 0), usual, CLOCK_JUMP)
+    most = longest(pace.packets, usual, pace.rows, gap, longest_loss)
+    if usual > 0.0 and in_packets(pace.packets) and within_packet(pace.packets, dt):
+        return Timed(_without_stamp(pace, dt), usual, JITTER)
+    if usual > 0.0 and dt <= most and begins_packet(pace.packets, dt, pace.waiting):
+        row = followed(pace.packets, dt, usual, pace.ahead, pace.waiting, pace.rows, most)
+        after = Pace(row.step, row.ahead, kept, 0, 0, 0.0, pace.scatter, pace.turns, row.rows, row.packets)
+        return Timed(after, row.given, 0)
     if dt <= gap and usual > 0.0 and _scattered(pace):
-        in_packets = pace.at_once > _AT_ONCE
-        rows = 1.0 if in_packets else max(floor(left / usual + 0.5), 1.0)
-        # At first a packet's stamp stands for all its rows, or what it was taken for wrongly is paid back for minutes
-        since = pace.waiting + 1.0 if in_packets else 1.0
-        follow = max(_FOLLOW_PACKETS if in_packets else _FOLLOW, min(since * (1.0 / (pace.rows + 1.0) - 1e-3), 1.0))
+        rows = max(floor(left / usual + 0.5), 1.0)
+        follow = max(_FOLLOW, min(1.0 / (pace.rows + 1.0) - 1e-3, 1.0))
         off = min(max(left - rows * usual, -_FARTHEST * usual), _FARTHEST * usual)
         given = rows * usual + min(max(follow * off, -0.5 * usual), 0.5 * usual)
-        counted = pace.waiting + 1.0 if in_packets else max(floor(dt / usual + 0.5), 1.0)
+        passed = max(floor(dt / usual + 0.5), 1.0)
         ahead = given - left
-        if in_packets or abs(ahead) <= gap:
-            usual += (dt - counted * usual) / max(pace.rows if in_packets else min(pace.rows, 500.0), counted)
-            if abs(ahead) > gap:  # more than sensible steps can pay back: the pace is another one
-                anew = Pace(usual, 0.0, kept, 0, 0, 0.0, pace.scatter, pace.turns, pace.at_once, _ANEW)
-                return Timed(anew, usual, 0)
+        if abs(ahead) <= gap:
+            usual += (dt - passed * usual) / max(min(pace.rows, 500.0), passed)
             return Timed(_after(pace, usual, ahead, kept, dt), given, 0)
+    if dt > longest_loss and goes_on and usual > 0.0:
+        return Timed(_with(pace, usual, 0.0, 0.0, 0, 0), usual, CLOCK_JUMP)
     mean = dt / (pace.waiting + 1.0)
     if mean <= gap:
         share = min(_SHARE * (pace.waiting + 1.0), 1.0)
@@ -142,27 +154,27 @@ def timed(pace: Pace, dt: float, repeated: bool, goes_on: bool, gap: float, long
 @compiled
 def _with(pace: Pace, step: float, ahead: float, back: float, waiting: int, held: int) -> Pace:
     """What is known of the scatter of the stamps stays."""
-    return Pace(step, ahead, back, waiting, held, pace.off, pace.scatter, pace.turns, pace.at_once, pace.rows)
+    return Pace(step, ahead, back, waiting, held, pace.off, pace.scatter, pace.turns, pace.rows, pace.packets)
 
 
 @compiled
 def _after(pace: Pace, step: float, ahead: float, back: float, dt: float) -> Pace:
     """The pace after a stamp that rose by *dt*: lost rows are no scatter."""
-    share = max(_SHARE, 1.0 / (pace.rows + 1.0))
-    counted = max(_OFTEN, 1.0 / (pace.rows + 1.0)) if dt < 1.5 * step else 0.0
-    off = dt / step - 1.0 if counted > 0.0 else 0.0
+    alone = not within_packet(pace.packets, dt)
+    share = max(_OFTEN, 1.0 / (pace.rows + 1.0)) if dt < 1.5 * step else 0.0
+    off = dt / step - 1.0 if share > 0.0 else 0.0
     scatter, turns = pace.scatter, pace.turns
     return Pace(
-        step, ahead, back, 0, 0, off, scatter + counted * (off * off - scatter),
-        turns + counted * (off * pace.off - turns), (1.0 - share) * pace.at_once, min(pace.rows + 1.0, _LONG),
+        step, ahead, back, 0, 0, off, scatter + share * (off * off - scatter),
+        turns + share * (off * pace.off - turns), min(pace.rows + 1.0, _LONG),
+        counted(pace.packets, dt, alone, pace.waiting, pace.rows),
     )  # fmt: skip
 
 
 @compiled
-def _without_stamp(pace: Pace, waiting: int) -> Pace:
-    """The pace after a row that was given the usual step."""
-    at_once = pace.at_once + max(_SHARE, 1.0 / (pace.rows + 1.0)) * (1.0 - pace.at_once)
+def _without_stamp(pace: Pace, dt: float) -> Pace:
+    """The pace after a row that was given the usual step, although its stamp rose by *dt* only."""
     return Pace(
-        pace.step, pace.ahead + pace.step, pace.back, waiting, 0, 0.0, pace.scatter, pace.turns, at_once,
-        min(pace.rows + 1.0, _LONG),
+        pace.step, pace.ahead + pace.step - dt, pace.back, pace.waiting + 1, 0, 0.0, pace.scatter, pace.turns,
+        min(pace.rows + 1.0, _LONG), counted(pace.packets, dt, False, 0, pace.rows),
     )  # fmt: skip
