@@ -69,3 +69,16 @@ def assert_compiled_as_python(area: Callable[..., Any], *args: Any) -> None:
     """A kernel that uses a whole area gives the numbers that its Python source gives."""
     by_python = plain(area)(*args)
     np.testing.assert_allclose(flat(area(*args)), flat(by_python), rtol=1e-13, atol=1e-15)
+
+
+def in_packets(
+    true: Floats, seed: int, *, first: bool = False, late: float = 0.0, apart: float = 0.0, most: int = 12
+) -> Floats:
+    """Stamps of rows that arrive 4 to *most* at a time: all of a packet have that of its last row, or of its *first*, or of
+    when it was received, *late* s after its last in the mean, or when each was read, *apart* s after the one before."""
+    rng, rows = np.random.default_rng(seed), np.arange(len(true))
+    ends = np.cumsum(rng.integers(4, most + 1, len(true))) - 1
+    packet = np.searchsorted(ends, rows)
+    begins = np.append(0, ends + 1)[packet]
+    stamps = true[begins if first else np.minimum(ends[packet], len(true) - 1)]
+    return np.maximum.accumulate(stamps + late * rng.exponential(size=len(true))[packet] + apart * (rows - begins))

@@ -68,6 +68,7 @@ def test_a_fault_is_where_it_is_said_to_be(fault: Fault, made: Recording) -> Non
         "clipped",
         "jitter",
         "batches",
+        "bursts",
         "clock",
     )  # more or less than `wrong` changes
     if not any(word in fault.name for word in rows_only):

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 import poise
 from data_files import data_path
-from helpers import angle_between
+from helpers import angle_between, in_packets
 from poise.data.flags import KNOWN, SENTENCES, Flag
 from poise.data.packet import Packet
 from poise.errors import RecordingError
@@ -156,19 +156,6 @@ def test_samples_that_come_unevenly_keep_their_stamps() -> None:
     """Every second row in five left out: steps of one and two periods, none of them an error of the clock."""
     kept = np.flatnonzero(np.arange(len(clean())) % 5 != 1)
     assert away_deg(poise.estimate(METHOD, clean()[kept]), kept).max() < 1.0
-
-
-def in_packets(
-    true: NDArray[np.float64], seed: int, *, first: bool = False, late: float = 0.0, apart: float = 0.0, most: int = 12
-) -> NDArray[np.float64]:
-    """Stamps of rows that arrive 4 to *most* at a time: all of a packet have that of its last row, or of its *first*, or of
-    when it was received, *late* s after its last in the mean, or when each was read, *apart* s after the one before."""
-    rng, rows = np.random.default_rng(seed), np.arange(len(true))
-    ends = np.cumsum(rng.integers(4, most + 1, len(true))) - 1
-    packet = np.searchsorted(ends, rows)
-    begins = np.append(0, ends + 1)[packet]
-    stamps = true[begins if first else np.minimum(ends[packet], len(true) - 1)]
-    return np.maximum.accumulate(stamps + late * rng.exponential(size=len(true))[packet]) + apart * (rows - begins)
 
 
 @pytest.mark.parametrize("rate", [25.0, 50.0, 286.0])

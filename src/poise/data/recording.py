@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from poise.data import axes
 from poise.data.attitude import BIAS, BIAS_SIGMA, QUAT, RATE, Attitude
+from poise.data.stamps import rising_steps, usual_step
 from poise.errors import RecordingError
 from poise.math import arrays
 
@@ -19,7 +20,7 @@ Floats = NDArray[np.float64]
 
 STANDARD_GRAVITY = 9.80665
 _ALIKE = 50  # steps of 0: more than any packet of samples with one stamp
-_SLOWEST = 0.5  # s: no gyroscope is read less often; a larger median step means stamps in another unit
+_SLOWEST = 0.5  # s: no gyroscope is read less often; a larger usual step means stamps in another unit
 _EARLIEST = 0.5  # s before the first gyroscope instant: an older sample says nothing of it
 _ROWS = ("time", "gyr", "acc", "mag", "acc_age", "mag_age")
 _UNITS_OF_TIME = ((1e-3, "milliseconds", 1e3), (1e-6, "microseconds", 1e6), (1e-9, "nanoseconds", 1e9))
@@ -213,10 +214,8 @@ class Recording:
 
     @property
     def rate_hz(self) -> float:
-        """Samples per second: one over the median step between stamps; NaN where there are none."""
-        steps = np.diff(self.time)
-        steps = steps[np.isfinite(steps) & (steps > 0)]
-        return float(1.0 / np.median(steps)) if len(steps) else float("nan")
+        """Samples per second: one over the median step between stamps (of rows in packets, the mean); NaN without steps."""
+        return 1.0 / usual_step(self.time)
 
     @property
     def duration(self) -> float:
@@ -297,12 +296,11 @@ def check_unit_of_time(time: Floats, even: bool = False) -> None:
         )
     if np.sum(steps < 0) > max(2, 0.5 * len(steps)):
         raise RecordingError(f"time: {np.sum(steps < 0)} of {len(steps)} steps go backwards; reverse the rows")
-    steps = steps[(steps > 0) & (steps < 1e300)]  # the median's mean of two must not overflow
-    if len(steps) < 2 or (step := float(np.median(steps))) <= _SLOWEST:
+    if len(rising_steps(time)) < 2 or (step := usual_step(time)) <= _SLOWEST:
         return
     factor, unit, per_second = min(_UNITS_OF_TIME, key=lambda u: abs(np.log(step * u[0] / 0.01)))
     raise RecordingError(
-        f"time: the median step is {step:g} s, which no gyroscope has; stamps in {unit}? "
+        f"time: the usual step is {step:g} s, which no gyroscope has; stamps in {unit}? "
         f"Multiply them by {factor:g} (that gives {per_second / step:.1f} samples per second)"
     )
 

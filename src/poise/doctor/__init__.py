@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from poise.data.corrections import Corrections
 from poise.data.recording import Recording
+from poise.data.stamps import packed
 from poise.doctor import axes, offsets, samples, timing, turning, units
 from poise.doctor.axes import Hemisphere
 from poise.doctor.findings import RANK, Diagnosis, Evidence, Finding
 from poise.errors import RecordingError
+from poise.estimators.guard import evened
 
 __all__ = ["Corrections", "Diagnosis", "Finding", "Hemisphere", "diagnose"]
 
@@ -40,9 +44,15 @@ def diagnose(
     if thorough:
         found += wild
         fixed = Diagnosis(recording, tuple(found)).repairs.apply(recording)
-        found += timing.findings(fixed) + samples.findings(fixed)
+        found += timing.findings(fixed)
+        in_packets = packed(fixed.time) is not None
+        if in_packets:
+            fixed = fixed.with_samples(time=evened(fixed.time))
+        found += samples.findings(fixed)
         if not any(f.severity == "sure" and not f.decided for f in found):
-            found += offsets.findings(_without(fixed, dead))
+            late = offsets.findings(_without(fixed, dead))
+            # The stamps of packets are too coarse for a delay to be taken out
+            found += [replace(f, fix=Corrections()) for f in late] if in_packets else late
     order = {severity: i for i, severity in enumerate(RANK)}
     found.sort(key=lambda f: order[f.severity])
     return Diagnosis(given, tuple(found), evidence, dict(read_as or {}))
@@ -76,7 +86,8 @@ def _of_units_and_axes(
     if any(f.name == "samples" for f in found):
         return found, None
     alive = _without(recording, dead)
-    blocks = turning.blocks(alive, recording.time * per_second if per_second != 1.0 else None)
+    time = recording.time * per_second if per_second != 1.0 else recording.time
+    blocks = turning.blocks(alive, evened(time) if packed(time) else time)
     of_acc = units.of_acc(recording, blocks, constant="acc" in dead)
     found += [f for f in (of_acc, units.of_mag(recording)) if f]
     length = _usual(blocks.acc)

@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from poise.data.recording import Recording
+from poise.data.stamps import Packed, packed
 from poise.doctor.findings import Finding
 
 _GAP = 3.0  # usual steps
 _JITTER = 0.02  # of the usual step
+_PACKET = 1.5  # times the rows of a long packet
 _PAUSE = 2.0  # s: a longer gap is a pause, not lost samples
 _DROP = 1.5  # usual steps: a sample is missing
 
@@ -20,22 +22,26 @@ def findings(recording: Recording) -> list[Finding]:
     rising = known[known > 0]
     if not len(rising):
         return []
-    usual = float(np.median(rising))
-    found = [_rate(recording, rising, usual)]
+    packets = packed(recording.time)
+    usual = float(np.median(rising)) if packets is None else packets.step
+    found = [_rate(recording, rising, usual) if packets is None else _in_packets(packets)]
     unknown = int(np.sum(~np.isfinite(recording.time)))
     backward, same = int(np.sum(known < 0)), int(np.sum(known == 0))
     if unknown:
         found.append(Finding("stamps", "likely", f"{unknown} rows have no time"))
-    if backward or same:
+    if backward or (same and packets is None):
         text = f"{backward} stamps lie before the one above and {same} repeat it; their rows predict nothing"
         found.append(Finding("stamps", "likely", text))
-    gaps = known[known > _GAP * usual]
+    most = _GAP if packets is None else max(_GAP, _PACKET * packets.most)
+    gaps = known[known > most * usual]
     if len(gaps):
         text = (
-            f"{len(gaps)} gap{'s' * (len(gaps) > 1)} of more than {_GAP:.0f} usual steps, the longest {gaps.max():.3f} s, "
+            f"{len(gaps)} gap{'s' * (len(gaps) > 1)} of more than {most:.0f} usual steps, the longest {gaps.max():.3f} s, "
             f"together {gaps.sum():.2f} s"
         )
         found.append(Finding("gaps", "note", text))
+    if packets is not None:  # whose rows between two stamps are many: that none is missing cannot be told
+        return found
     short = known[(known > _DROP * usual) & (known < _PAUSE)]
     missing = int(np.sum(np.round(short / usual) - 1))
     if missing:
@@ -43,6 +49,15 @@ def findings(recording: Recording) -> list[Finding]:
         text = f"about {missing} samples ({share:.2%}) are missing, by steps of two usual ones or more"
         found.append(Finding("drops", "likely" if share > 0.05 else "note", text))
     return found
+
+
+def _in_packets(packets: Packed) -> Finding:
+    text = (
+        f"the rows come in packets of {packets.words}: stamps of when they arrived, not of when they were measured; "
+        f"{1.0 / packets.step:.2f} Hz in the mean. poise takes the rows of a packet to be evenly apart; stamps of the device "
+        "itself would be better"
+    )
+    return Finding("packets", "likely", text)
 
 
 def _rate(recording: Recording, rising: np.ndarray[tuple[int], np.dtype[np.float64]], usual: float) -> Finding:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from poise.data.corrections import Corrections
 from poise.data.recording import STANDARD_GRAVITY, Recording
+from poise.data.stamps import rising_steps, usual_step
 from poise.doctor import turning
 from poise.doctor.axes import AGREED, SURE
 from poise.doctor.findings import Finding, unit_after
@@ -31,17 +32,13 @@ _LOOKED_AT = 50_000  # lengths are enough for a median
 
 def of_time(recording: Recording) -> Finding | None:
     """Whether the stamps are in another unit than s."""
-    steps = np.diff(recording.time)
-    steps = steps[np.isfinite(steps) & (steps > 0)]
-    if len(steps) < 2:
+    if len(rising_steps(recording.time)) < 2:
         return None
-    step = float(np.median(steps))
+    step = usual_step(recording.time)
     if RATES[0] / 10 <= 1.0 / step <= 5 * RATES[1]:
         return None
     fits = [factor for factor in _TIMES if RATES[0] <= 1.0 / (step * factor) <= RATES[1]]
-    said = (
-        f"the median step between stamps is {step:.4g} s, {1.0 / step:.4g} samples per second, which no gyroscope has"
-    )
+    said = f"the usual step between stamps is {step:.4g} s, {1.0 / step:.4g} samples per second, which no gyroscope has"
     if len(fits) != 1:
         return Finding("time unit", "sure", f"{said}; no unit of time makes a rate of it", decided=False)
     fix = Corrections(factors={"time": fits[0]})

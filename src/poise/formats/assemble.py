@@ -38,7 +38,7 @@ class Sniffed:
     duration: float
     """s"""
     gaps: tuple[int, float]
-    """how many steps are longer than three usual ones, and the longest of them, s"""
+    """how many steps are longer than three usual ones, or than a packet, and the longest of them, s"""
     sensors: Mapping[str, SensorFacts]
     """by name: time, gyr, acc, mag"""
     columns: Mapping[str, str]
@@ -147,10 +147,10 @@ class Assembler:
             time = columns["time"] / per_second if per_second != 1.0 else columns["time"]
         before = np.nan if seen["before"] is None else seen["before"]
         steps = np.diff(time, prepend=before)
-        long = steps[steps > 3.0 * made.step]
+        long = steps[steps > made.gap]
         if len(long):
             seen["gaps"] = [seen["gaps"][0] + len(long), max(seen["gaps"][1], float(long.max()))]
-        seen["backward"] += int(np.sum(steps <= 0))
+        seen["backward"] += int(np.sum((steps < 0) if made.packets else (steps <= 0)))
         known = time[np.isfinite(time)]
         seen["samples"]["time"] += len(known)
         if len(known):

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from poise.data.recording import STANDARD_GRAVITY, check_unit_of_time
+from poise.data.stamps import Packed, packed, usual_step
 from poise.errors import FormatError
 from poise.formats import evidence, units
 from poise.formats.evidence import Verdict
@@ -29,7 +30,9 @@ class Decisions:
     rate: float | None = None
     """1/s, where stamps are made from it"""
     step: float = float("nan")
-    """s, the median between stamps"""
+    """s, the usual one between rows"""
+    packets: Packed | None = None
+    """how rows came that have no stamp of their own"""
     held: dict[str, int] = field(default_factory=dict)
     """sensors whose samples are repeated, and over how many rows"""
     gravity: float = STANDARD_GRAVITY
@@ -39,6 +42,11 @@ class Decisions:
     def factor(self, sensor: str) -> float:
         """What one unit of the file is in SI (µT for the magnetometer)."""
         return units.FACTORS[sensor][self.unit[sensor]]
+
+    @property
+    def gap(self) -> float:
+        """s: a longer step is a gap."""
+        return self.step * max(3.0, 1.5 * self.packets.most if self.packets else 0.0)
 
 
 def decide(where: str, table: Table, options: Options) -> Decisions:
@@ -53,9 +61,9 @@ def decide(where: str, table: Table, options: Options) -> Decisions:
     sample = table.rows.sample()
     made = Decisions()
     time = _time(where, table, sample, options, made)
-    steps = np.diff(time)
-    steps = steps[np.isfinite(steps) & (steps > 0)]
-    made.step = float(np.median(steps)) if len(steps) else float("nan")
+    made.step, made.packets = usual_step(time), packed(time)
+    if made.packets is not None:
+        made.doubts.append(f"time: packets of {made.packets.words}, taken to be evenly apart")
     rows = {sensor: stacked(sample, sensor) for sensor in SENSORS if f"{sensor}_x" in sample}
     for sensor in ("acc", "mag", "gyr"):
         if sensor in rows:

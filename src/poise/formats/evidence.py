@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from poise.data.stamps import usual_step
 from poise.formats.units import FACTORS
 
 Floats = NDArray[np.float64]
@@ -24,22 +25,20 @@ class Verdict(NamedTuple):
     unit: str
     sentence: str
     size: float = float("nan")
-    """time: median step; acc: median length; gyr: fitted rad/s per unit; all in the file's own units"""
+    """time: usual step; acc: median length; gyr: fitted rad/s per unit; all in the file's own units"""
 
 
 def of_time(time: Floats) -> Verdict:
     """Which unit gives the stamps (n,) a rate that gyroscopes have."""
-    steps = np.diff(time)
-    steps = steps[np.isfinite(steps) & (steps > 0)]
-    if not len(steps):
+    step = usual_step(time)
+    if not step > 0.0:
         return Verdict("", "no stamp rises above the one before")
-    step = float(np.median(steps))
     rates = {unit: per_second / step for unit, per_second in FACTORS["time"].items() if unit != "100us"}
     fits = [unit for unit, rate in rates.items() if RATES[0] <= rate <= RATES[1]]
     if len(fits) == 1:
-        return Verdict(fits[0], f"its median step {step:.6g} means {rates[fits[0]]:.1f} samples per second", step)
+        return Verdict(fits[0], f"its usual step {step:.6g} means {rates[fits[0]]:.1f} samples per second", step)
     maybe = " or ".join(f"{rates[unit]:.4g} Hz in {unit}" for unit in fits) or "no rate of a gyroscope in any unit"
-    return Verdict("", f"its median step {step:.6g} would be {maybe}", step)
+    return Verdict("", f"its usual step {step:.6g} would be {maybe}", step)
 
 
 def of_acc(acc: Floats) -> Verdict:
@@ -62,11 +61,9 @@ def of_gyr(time: Floats, gyr: Floats, acc: Floats, mag: Floats) -> Verdict:
 
     *time* (n,) in s; *gyr* (n, 3) in its unknown unit; *acc*, *mag* (n, 3) in any unit.
     """
-    steps = np.diff(time)
-    steps = steps[np.isfinite(steps) & (steps > 0)]
-    if not len(steps):
+    step = usual_step(time)
+    if not step > 0.0:
         return Verdict("", "without rising stamps no turn can be measured")
-    step = float(np.median(steps))
     rows = max(1, round(_WINDOW / step))
     found = {}
     for name, vector in (("gravity", acc), ("the magnetic field", mag)):

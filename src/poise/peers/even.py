@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from poise.data.recording import Recording
+from poise.data.stamps import packed
 from poise.errors import RecordingError
+from poise.estimators.guard import evened
 
 Floats = NDArray[np.float64]
 Rows = NDArray[np.bool_]
@@ -38,12 +40,16 @@ def prepared(recording: Recording) -> Prepared:
     peer takes for silence. Raises :class:`RecordingError` where there is too little to run a filter on.
     """
     _check(recording)
-    if _even(recording.time, _UNEVEN) and _complete(recording):
+    packets = packed(recording.time)
+    if packets is not None:
+        recording = recording.with_samples(time=evened(recording.time))
+    elif _even(recording.time, _UNEVEN) and _complete(recording):
         return Prepared(recording, () if recording.has_mag else (_NO_MAG,))
     clock, forward = rising(recording.time)
     seconds = 1.0 / Recording(clock[forward], *(getattr(recording, s)[forward] for s in ("gyr", "acc"))).rate_hz
     grid, regular = _grid(clock[forward], seconds, len(recording))
-    notes = _notes(recording, forward, regular)
+    notes = [f"packets of {packets.words}: taken to be evenly apart"] if packets else []
+    notes += _notes(recording, forward, regular)
     gyr, gyr_known = _interpolated(grid, *_own(recording, "gyr", clock, forward))
     acc, acc_known = _interpolated(grid, *_own(recording, "acc", clock, forward))
     mag, mag_known = np.full_like(gyr, np.nan), None

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from math import floor
+from math import floor, isfinite
 from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from poise.data.flags import CLOCK_JUMP, GAP, JITTER, TIME_DISORDER
 from poise.estimators.guard.packets import (
@@ -17,7 +20,9 @@ from poise.estimators.guard.packets import (
     one_by_one,
     within_packet,
 )
-from poise.math.compiled import compiled
+from poise.math.compiled import compiled, entry
+
+Floats = NDArray[np.float64]
 
 SHORTEST = 1e-7  # s: a noise density over no time at all would overflow
 _LONGEST = 1e12
@@ -178,3 +183,28 @@ def _without_stamp(pace: Pace, dt: float) -> Pace:
         pace.step, pace.ahead + pace.step - dt, pace.back, pace.waiting + 1, 0, 0.0, pace.scatter, pace.turns,
         min(pace.rows + 1.0, _LONG), counted(pace.packets, dt, False, 0, pace.rows),
     )  # fmt: skip
+
+
+def evened(time: Floats, gap: float = 0.2, longest_loss: float = 1.0) -> Floats:
+    """(n,) s: the stamps *time* (n,) as the guard takes them: those of rows in packets evenly apart."""
+    even = np.full(len(time), np.nan)
+    if len(time):
+        _even_out(np.ascontiguousarray(time, float), gap, longest_loss, even)
+    return even
+
+
+@entry
+def _even_out(time: Floats, gap: float, longest_loss: float, even: Floats) -> None:
+    pace, clock, now = UNKNOWN, float(time[0]), float(time[0])
+    even[0] = now
+    for i in range(1, len(time)):
+        dt = float(time[i]) - clock
+        if isfinite(time[i]):
+            clock = float(time[i])
+        if evenly(pace, dt, gap):
+            pace = counted_on(pace, dt)
+        else:
+            row = timed(pace, dt, False, False, gap, longest_loss)
+            pace, dt = row.pace, row.dt
+        now += dt
+        even[i] = now

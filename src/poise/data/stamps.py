@@ -1,0 +1,66 @@
+"""Time stamps as a whole: the usual step from row to row, also of rows that came in packets."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+_OFTEN = 0.3  # of the rows have no stamp of their own
+_RIGHT_AFTER = 0.25  # of the mean step: what follows sooner was stamped with the row before
+_FEWEST = 20  # steps
+_PAUSE = 5.0  # times all but the longest steps: what takes longer is no packet
+
+
+class Packed(NamedTuple):
+    """Rows of which many share a stamp, or have one right after that of the row before: they came in packets."""
+
+    step: float
+    """in the stamps' unit, from row to row in the mean"""
+    fewest: int
+    """rows of a packet, of all but 5 %"""
+    most: int
+    apart: float
+    """between the stamps of a packet, of all but 5 %"""
+
+    @property
+    def words(self) -> str:
+        rows = f"{self.fewest} to {self.most}" if self.fewest < self.most else f"{self.most}"
+        return f"{rows} rows" + (
+            " that share a stamp" if self.apart == 0.0 else f" stamped {1e3 * self.apart:.3g} ms apart"
+        )
+
+
+def rising_steps(time: Floats) -> Floats:
+    """The steps (m,) between the stamps *time* (n,) that are forward and not beyond any number."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        steps = np.diff(time)
+        return np.asarray(steps[(steps > 0.0) & (steps < 1e300)])
+
+
+def packed(time: Floats) -> Packed | None:
+    """How the rows with the stamps *time* (n,) came in packets; None where each has a stamp of its own."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        steps = np.diff(time[np.isfinite(time)])
+    forward = steps[(steps >= 0.0) & (steps < 1e300)]
+    if len(forward) < _FEWEST or not (longest := float(np.quantile(forward, 0.98))) > 0.0:
+        return None
+    mean = float(np.mean(forward[forward <= _PAUSE * longest]))
+    within = (steps >= 0.0) & (steps < _RIGHT_AFTER * mean)
+    if np.mean(within) <= _OFTEN:
+        return None
+    sizes = np.diff(np.flatnonzero(np.concatenate(([True], ~within, [True]))))
+    fewest, most = (int(rows) for rows in np.quantile(sizes, [0.05, 0.95]))
+    return Packed(mean, fewest, most, float(np.quantile(steps[within], 0.95)))
+
+
+def usual_step(time: Floats) -> float:
+    """In the unit of *time* (n,): the median step forward, or, of rows in packets, the mean; NaN where none rises."""
+    steps = rising_steps(time)
+    if not len(steps):
+        return float("nan")
+    packets = packed(time)
+    return float(np.median(steps)) if packets is None else packets.step
