@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-_OFTEN = 0.3  # of the rows have no stamp of their own
-_RIGHT_AFTER = 0.25  # of the mean step: what follows sooner was stamped with the row before
+OFTEN = 0.3  # of the rows have no stamp of their own
+RIGHT_AFTER = 0.25  # of the mean step: what follows sooner was stamped, or read, with the row before
 _FEWEST = 20  # steps
 _PAUSE = 5.0  # times all but the longest steps: what takes longer is no packet
 
@@ -49,8 +49,8 @@ def packed(time: Floats) -> Packed | None:
     if len(forward) < _FEWEST or not (longest := float(np.quantile(forward, 0.98))) > 0.0:
         return None
     mean = float(np.mean(forward[forward <= _PAUSE * longest]))
-    within = (steps >= 0.0) & (steps < _RIGHT_AFTER * mean)
-    if np.mean(within) <= _OFTEN:
+    within = (steps >= 0.0) & (steps < RIGHT_AFTER * mean)
+    if np.mean(within) <= OFTEN:
         return None
     sizes = np.diff(np.flatnonzero(np.concatenate(([True], ~within, [True]))))
     fewest, most = (int(rows) for rows in np.quantile(sizes, [0.05, 0.95]))

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from poise.data.stamps import OFTEN, RIGHT_AFTER
 from poise.math.compiled import compiled
 
 _UNKNOWN, _LAST, _FIRST = 0, 1, 2  # whose stamp a packet's is thought to be
-_OFTEN, _SELDOM = 0.3, 0.1  # of the rows have no stamp of their own: packets; so few: no more
-_RIGHT_AFTER = 0.25  # of the mean step: what follows sooner was read with the row before
+_SELDOM = 0.1  # of the rows have no stamp of their own: no packets any more
 _LONG = 1.5  # mean steps: what a packet begins with
 _LONGER = 1.5  # times the longest packet lately: what takes more is a gap
 _SHORTER = 0.02  # of a new packet in how long that is, where it is shorter
@@ -51,7 +51,7 @@ NONE = Packets(0.0, 0.0, False, 1.0, 0.0, 0.0, 0.0, 0.0, _UNKNOWN, 0.0)
 
 @compiled
 def in_packets(packets: Packets) -> bool:
-    return packets.at_once > (_OFTEN if packets.anchor == _UNKNOWN else _SELDOM)
+    return packets.at_once > (OFTEN if packets.anchor == _UNKNOWN else _SELDOM)
 
 
 @compiled
@@ -63,7 +63,7 @@ def begins_packet(packets: Packets, dt: float, waiting: int) -> bool:
 @compiled
 def within_packet(packets: Packets, dt: float) -> bool:
     """Whether a row was stamped right after the one before, as if both had been read at once."""
-    return dt < _RIGHT_AFTER * packets.mean and (packets.long or in_packets(packets))
+    return dt < RIGHT_AFTER * packets.mean and (packets.long or in_packets(packets))
 
 
 @compiled

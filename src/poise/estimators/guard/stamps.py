@@ -97,10 +97,10 @@ def _scattered(pace: Pace) -> bool:
 def timed(pace: Pace, dt: float, repeated: bool, goes_on: bool, gap: float, longest_loss: float) -> Timed:
     """The time that a row stands for.
 
-    *repeated*: it is the very row before, so that it may have been sent twice; *goes_on*: the samples go on from the
-    row before as if no time had passed. A row without a stamp of its own still is a sample: it is taken to last the
-    usual step, and that is set off against the stamps that follow. So stamps that come in batches, swapped rows and a
-    clock that stands still lose no rotation. Stamps that scatter about an even pace are followed slowly.
+    *repeated*: it is the very row before, so that it may have been sent twice, unless rows share stamps anyway; *goes_on*:
+    the samples go on from the row before as if no time had passed. A row without a stamp of its own still is a sample: it
+    is taken to last the usual step, and that is set off against the stamps that follow. So swapped rows and a clock that
+    stands still lose no rotation. Stamps that scatter about an even pace are followed slowly.
     """
     usual = pace.step
     if not SHORTEST < dt < _LONGEST:  # NaN too
@@ -112,7 +112,7 @@ def timed(pace: Pace, dt: float, repeated: bool, goes_on: bool, gap: float, long
         if back > gap:  # the clock was set back: nothing can be set off against it any more
             kept = min(pace.back + max(pace.ahead, 0.0) + back + usual, _LONGEST)
             return Timed(_with(pace, usual, 0.0, kept, 0, 0), usual, TIME_DISORDER | CLOCK_JUMP)
-        if repeated or usual == 0.0:
+        if usual == 0.0 or (repeated and not in_packets(pace.packets)):  # in a packet a sensor may hold its sample
             return Timed(_with(pace, usual, pace.ahead, pace.back, waiting, pace.held + 1), 0.0, TIME_DISORDER)
         return Timed(_without_stamp(pace, 0.0), usual, TIME_DISORDER)
 
