@@ -15,6 +15,7 @@ from data_files import data_path
 from helpers import angle_between, in_packets
 from poise.data.stamps import packed, usual_step
 from poise.estimators.guard import evened
+from poise.peers import PEERS
 from poise.peers.even import prepared
 from poise.simulation import Sensor, forearm, measure
 
@@ -109,3 +110,12 @@ def test_peers_run_on_evened_stamps() -> None:
     assert notes[0] == "packets of 4 to 12 rows stamped 0.05 ms apart: taken to be evenly apart"
     assert even.rate_hz == pytest.approx(100.0, rel=0.01)
     np.testing.assert_allclose(np.diff(even.time), 1.0 / even.rate_hz, rtol=1e-6)
+
+
+@pytest.mark.parametrize("kind", KINDS.values(), ids=KINDS)
+def test_a_peers_attitude_stands_on_the_rows_it_is_of(kind: dict[str, Any]) -> None:
+    made = measure(forearm(30.0, 100.0, seed=1), Sensor(jitter=0.0), seed=1)
+    packets = made.with_samples(time=in_packets(made.time, 1, **kind))
+    attitude, true = PEERS["vqf"].attitude(packets), PEERS["vqf"].attitude(made)
+    np.testing.assert_array_equal(attitude.time, packets.time)
+    assert np.degrees(angle_between(attitude.quat, true.quat))[100:].max() < 2.0  # it was up to 40

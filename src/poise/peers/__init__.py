@@ -21,7 +21,7 @@ from poise.data.flags import Flag
 from poise.data.recording import Recording
 from poise.errors import PoiseError, RecordingError
 from poise.peers import adapters
-from poise.peers.even import FEWEST, Prepared, period, pieces, prepared, rising
+from poise.peers.even import FEWEST, Prepared, period, pieces, prepared, rising, unpacked
 
 Floats = NDArray[np.float64]
 
@@ -148,7 +148,7 @@ def _on_rows(attitude: Attitude, recording: Recording) -> Attitude:
     """The attitude brought from prepared stamps to the recording's rows."""
     if np.array_equal(attitude.time, recording.time):
         return attitude
-    clock, forward = rising(recording.time)
+    clock, forward = rising(unpacked(recording).time)
     placed = attitude.resample(clock)
     placed.flags[~forward] |= np.uint32(Flag.TIME_DISORDER)
     placed.time[:] = recording.time
