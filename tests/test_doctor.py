@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import numpy as np
@@ -271,6 +272,26 @@ def test_nothing_breaks_the_doctor(name: str) -> None:
     assert len(found.repair(recording)) == len(recording)
     unusable = {"empty", "one row", "nothing", "no acc", "no gyr", "one time", "no times", "zeros"}
     assert bool(found.found("sure")) == (name in unusable)
+
+
+@pytest.mark.parametrize(("share", "severity"), [(0.01, "note"), (0.04, "note"), (0.08, "likely")])
+def test_a_hard_iron_is_told_with_what_to_expect(turned: Recording, share: float, severity: str) -> None:
+    """What is advised makes the heading better: the flagship expects a calibrated magnetometer."""
+    iron = share * np.linalg.norm(turned.mag[0]) / np.sqrt(3.0)
+    magnetic = turned.with_samples(
+        mag=measure(forearm(60.0, seed=2), PERFECT, seed=2).mag + iron * np.array([1, -1, 1])
+    )
+    found = next(finding for finding in diagnose(magnetic).findings if finding.name == "hard iron")
+    assert found.severity == severity
+    advised = re.search(r"--set initial_iron=([0-9.]+)\)", found.sentence)
+    assert bool(advised) == (share > 0.03)
+    if advised:
+        assert float(advised[1]) == pytest.approx(share / np.sqrt(3.0), rel=0.2)
+        told = poise.SelfCalibrating(initial_iron=float(advised[1]))
+        errors = [
+            poise.evaluate(poise.estimate(m, magnetic), magnetic).rmse_deg() for m in (poise.SelfCalibrating(), told)
+        ]
+        assert errors[1].heading < 0.7 * errors[0].heading
 
 
 def test_one_sensor_is_renamed_or_set_earlier(turned: Recording) -> None:

@@ -24,6 +24,7 @@ _VAGUE = 0.004  # s, of sigma
 _LARGEST = 0.25  # s: what is beyond is no delay but another fault
 _UNEXPLAINED = {"acc": 0.05, "mag": 0.2}  # of the power
 _KNOWN = 0.03  # of the field, the sigma of a hard iron that is well determined
+_EXPECTED, _LARGE = 0.03, 0.05  # of the field: more than in a calibrated magnetometer; and degrees of heading
 
 
 class Fit(NamedTuple):
@@ -87,10 +88,11 @@ def _of_iron(fitted: Fit, length: float) -> Finding:
     if sigma > _KNOWN * length:
         text = f"{told}: the motion determines it badly; turn the sensor about all three axes"
         return Finding("hard iron", "note", text)
-    if size > 0.15 * length and size > _CERTAIN * sigma:
-        text = f"{told}: calibrate the magnetometer, or let self-calibrating learn it (initial_iron)"
-        return Finding("hard iron", "likely", text)
-    return Finding("hard iron", "note", f"{told}; the motion determines it")
+    if size < _EXPECTED * length or size < _CERTAIN * sigma:
+        return Finding("hard iron", "note", f"{told}; the motion determines it")
+    per_axis = size / length / 3.0**0.5
+    text = f"{told}: calibrate the magnetometer, or let self-calibrating expect it (--set initial_iron={per_axis:.2g})"
+    return Finding("hard iron", "likely" if size > _LARGE * length else "note", text)
 
 
 def fit(vector: Floats, blocks: turning.Blocks, along: turning.Path) -> Fit | None:
