@@ -407,7 +407,7 @@ def test_a_name_that_cannot_be_stops_nobody(sender: socket.socket) -> None:
         sender.sendto(b"@fine\n" + frames.encoded(ROWS, 0), to)
         same_end(live, "fine", RECORDING)
         assert set(live.hub.devices) == {"fine"}
-        assert live.server.refused == 1
+        assert live.server.feeding.refused == 1
 
 
 def test_made_up_addresses_do_not_fill_the_memory() -> None:

@@ -544,7 +544,7 @@ def test_a_replay_at_full_speed_waits_for_its_method(monkeypatch: pytest.MonkeyP
     server = Server(hub, [Replay(recording, "walk", float("inf"))])
 
     async def main() -> int:
-        feeding = asyncio.ensure_future(server._feed(server.sources[0]))
+        feeding = asyncio.ensure_future(server.feeding.feed(server.feeding.sources[0]))
         await asyncio.sleep(0.5)
         early = hub.devices["walk"].health.samples
         await asyncio.to_thread(Choice.of(METHOD).warm)

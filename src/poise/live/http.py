@@ -248,7 +248,7 @@ class _Push:
 def server_health(server: Server) -> tuple[bool, list[str]]:
     """Whether all is well, and what is not."""
     reasons = [f"{d.name} is silent" for d in server.hub.devices.values() if d.health.silent and d.silent_for(1.0)]
-    bad = [f"{c['name']}: {c['text']}" for c in server.conditions() if c["state"] in ("waiting", "failed")]
+    bad = [f"{c['name']}: {c['text']}" for c in server.feeding.conditions() if c["state"] in ("waiting", "failed")]
     if server.recorder is not None and (reason := server.recorder.condition()["reason"]):
         bad.append(f"not recording: {reason}")
     return not bad, bad + reasons

@@ -48,7 +48,7 @@ def metrics(server: Server) -> str:
     ]
     text = "from a sample's arrival to its attitude, of a device"
     _family(lines, "poise_device_wait_seconds", "gauge", text, waits_of)
-    sources = [(f'source="{_escaped(c["name"])}",state="{c["state"]}"', 1.0) for c in server.conditions()]
+    sources = [(f'source="{_escaped(c["name"])}",state="{c["state"]}"', 1.0) for c in server.feeding.conditions()]
     _family(lines, "poise_source", "gauge", "1 for the state that a source is in", sources)
     _family(lines, "poise_viewers", "gauge", "connected viewers", [("", len(server.viewers))])
     _family(lines, "poise_tick_seconds", "gauge", "mean cost of a tick with samples", [("", server.hub.tick_cost)])

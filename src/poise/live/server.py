@@ -16,6 +16,7 @@ from poise.data.flags import INVALID, SENTENCES, Flag
 from poise.errors import PoiseError
 from poise.live import frames, http
 from poise.live.access import Access, Gate
+from poise.live.feeding import Feeding
 from poise.live.hub import Hub, HubError
 from poise.live.joint import Joint
 from poise.live.listening import Listening, Options
@@ -59,7 +60,8 @@ class Server:
         recorder: Recorder | None = None,
         films: Sequence[Film] = (),
     ) -> None:
-        self.hub, self.sources, self.options, self.recorder = hub, sources, options or Options(), recorder
+        self.hub, self.options, self.recorder = hub, options or Options(), recorder
+        self.feeding = Feeding(hub, sources)
         self.films = tuple(films)
         """recordings for pages to play"""
         self.viewers: dict[Viewer, None] = {}
@@ -74,12 +76,7 @@ class Server:
         self._frame = 0
         self._changed = False
         self._warming: set[Choice] = set()
-        self.refused = 0
-        """packets that no device could take"""
         self._settled = Settled()
-        self.ended: dict[Source, str] = {}
-        """sources that give nothing any more, each with what went wrong, if anything"""
-        self._said: dict[str, object] = {}
         self._failure: BaseException | None = None
         self._tasks: set[asyncio.Task[None]] = set()
         hub.on_batch.append(self._to_viewers)
@@ -104,7 +101,7 @@ class Server:
                 self.recorder.open(self.hub)
             beginning = self.spawn(self._begin())
             await asyncio.wait((beginning,), timeout=_HEAD_START)
-            feeding = [self.spawn(self._feed(source)) for source in self.sources]
+            feeding = [self.spawn(self.feeding.feed(source)) for source in self.feeding.sources]
             self.spawn(self._ticking())
             try:
                 await serve(self, sockets, ready)
@@ -163,7 +160,7 @@ class Server:
                     [r.stream.heading_reference for d in self.hub.devices.values() for r in d.runs],
                 )
                 self._changed |= headings != before  # a magnetometer has spoken: zero means something else now
-                self._look_at_sources()
+                self.feeding.look()
                 self._settled.look(len(self.hub.devices) + len(self.device_sockets) + len(self.viewers))
             if slices:
                 self._say(partial(self.health, slices.pop()))
@@ -198,69 +195,6 @@ class Server:
                 self.hub.set_methods(device, self.hub.wanted(device))
         finally:
             self._warming.discard(choice)
-
-    async def _feed(self, source: Source) -> None:
-        """A source's packets to the hub; what goes wrong with it is an event, and other devices go on."""
-        if hasattr(source, "tell"):
-            source.tell = lambda text: self.hub.event("source", None, text)
-        timebase = source.name if getattr(source, "one_clock", False) else ""
-        waits = getattr(source, "can_wait", False)
-        try:
-            async for arrival in source.arrivals():
-                device = self.hub.devices.get(arrival.device)
-                try:
-                    device = self.hub.device(arrival.device, source.name, source.shape)
-                    device.timebase = timebase
-                    now = time.monotonic()
-                    if waits or device.allowance.grants(len(arrival.rows), now, self.hub.max_rate):
-                        device.receive(arrival.rows, now, arrival.sequence)
-                    else:
-                        self._throttle(device, len(arrival.rows))
-                except PoiseError as problem:
-                    self._refused(device, source.name, problem)
-                while waits and device is not None and not device.runs:
-                    await asyncio.sleep(0.02)  # for the method to be loaded
-            self.ended[source] = ""
-            self.hub.event("end", None, f"{source.name} has come to its end")
-        except (PoiseError, OSError) as problem:
-            self.ended[source] = str(problem)
-            self.hub.event("failed", None, f"{source.name}: {problem}")
-
-    def _throttle(self, device: Device, samples: int) -> None:
-        """Counts what was too much of a source that cannot be cut off; says so at the first and then every 100 000th."""
-        before, device.health.throttled = device.health.throttled, device.health.throttled + samples
-        if not before or before // 100_000 != device.health.throttled // 100_000:
-            text = f"more than {self.hub.max_rate:g} samples a second are not taken; `--max-rate` allows more"
-            self.hub.event("throttled", device, f"{device.name}: {text}")
-
-    def conditions(self) -> list[dict[str, Any]]:
-        """How the sources fare: *ok*, *ended*, *waiting* for one that is away, or *failed* for good, and why."""
-        found = []
-        for source in self.sources:
-            text = self.ended.get(source, getattr(source, "trouble", ""))
-            state = ("failed" if text else "ended") if source in self.ended else "waiting" if text else "ok"
-            found.append({"name": source.name, "state": state, "text": text})
-        return found
-
-    def _look_at_sources(self) -> None:
-        """Says what is amiss with a source that goes on: nothing else would tell why no device appears."""
-        for source in self.sources:
-            trouble, unread = getattr(source, "trouble", ""), getattr(source, "rejected", 0)
-            if trouble != self._said.get(source.name, ""):
-                self._said[source.name] = trouble
-                self.hub.event("source", None, f"{source.name}: {trouble or 'it is there again'}")
-            if unread and unread // 1000 != self._said.get(f"{source.name} unread"):
-                self._said[f"{source.name} unread"] = unread // 1000
-                what = f"{unread} lines or frames so far could not be read"
-                self.hub.event("source", None, f"{source.name}: {what}; `--describe` says what a device sends")
-
-    def _refused(self, device: Device | None, source: str, problem: PoiseError) -> None:
-        """Counts what a device should not have sent; says so at the first and then every thousandth time."""
-        self.refused += 1
-        if device is not None:
-            device.health.rejected += 1
-        if (self.refused if device is None else device.health.rejected) % 1000 == 1:
-            self.hub.event("refused", device, f"{device.name if device else source}: {problem}")
 
     # -- what is said ---------------------------------------------------------------------------------------------
 
@@ -348,7 +282,7 @@ class Server:
             "type": "health",
             "time": time.time(),
             "devices": hub.conditions(devices or hub.shown, now),
-            "sources": self.conditions(),
+            "sources": self.feeding.conditions(),
             "viewers": len(self.viewers),
             "wait_ms": {"p50": round(1e3 * waits.quantile(0.5), 3), "p99": round(1e3 * waits.quantile(0.99), 3)},
             "recording": self.recorder.condition() if self.recorder else None,
