@@ -20,6 +20,7 @@ made          made recordings of an inexpensive sensor, and of one with white no
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
@@ -355,10 +356,18 @@ TYPICAL = Sensor()
 NOISE = Sensor(gyr=Triad(TYPICAL.gyr.noise), acc=Triad(TYPICAL.acc.noise), mag=Triad(TYPICAL.mag.noise), mag_delay=0.0)
 
 
+def as_advised(recording: Recording) -> poise.Attitude:
+    """With the initial_iron that `poise doctor` tells, where it tells one."""
+    told = " ".join(finding.sentence for finding in poise.diagnose(recording).findings)
+    advice = re.search(r"initial_iron=([0-9.]+)", told)
+    return poise.estimate(FLAGSHIP._replace(initial_iron=float(advice[1])) if advice else FLAGSHIP, recording)
+
+
 def made(trials: Trials) -> Iterator[Table]:
     del trials
     iron = FLAGSHIP._replace(initial_iron=0.03)
     runs = RUNS | {"causal, initial_iron 0.03": causal(iron), "offline, initial_iron 0.03": offline(iron)}
+    runs["causal, as the doctor advises"] = as_advised
     for label, sensor in (("an inexpensive sensor", TYPICAL), ("white noise only", NOISE)):
         rows: list[list[Cell]] = []
         for motion in (forearm, phone, robot):

@@ -1,11 +1,11 @@
 """The fault matrix: what faults in real recordings do to poise's methods, and to other packages' filters.
 
-    python benchmarks/faults.py [--final] [--methods NAMES] [--peers NAMES] [--rows E2,E3] [--json | --write]
+    python benchmarks/faults.py [--final | --made HZ] [--methods NAMES] [--peers NAMES] [--rows E2,E3] [--json | --write]
 
 Every fault is put into BROAD trials at places drawn from stated seeds, and judged against the clean run of the same method
 and against the reference (docs/faults.md says how). Half of the trials and seeds are for developing, the other half, --final,
-for the table that counts. Ends with 1 where a demand on a method of poise is not met.
-POISE_DATA says where the recordings are.
+for the table that counts; --made puts the faults into made recordings at any rate. Ends with 1 where a demand on a method of
+poise is not met. POISE_DATA says where the recordings are.
 """
 
 from __future__ import annotations
@@ -14,12 +14,14 @@ import argparse
 import json
 import os
 import sys
+import tempfile
 import time as clock
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any
 
+import poise
 from accuracy import data_folder, trial_files, warm
 from fault_bench.checked import Check
 from fault_bench.checks import CheckTask, check, check_tasks
@@ -28,6 +30,7 @@ from fault_bench.matrix import Case, perform, tasks
 from fault_bench.report import check_table, document, failures, group_tables, summary_table
 from fault_bench.rows import FAULTS
 from poise import METHODS
+from poise.simulation import Sensor, forearm, measure, phone, robot
 from scores import CHOSEN, HELD_OUT
 
 SEEDS, FINAL_SEEDS = (1, 2), (101, 102)
@@ -38,7 +41,12 @@ MARK = "<!-- what follows is written by: python benchmarks/faults.py --write -->
 def main(arguments: list[str] | None = None) -> int:
     """The command."""
     options = _options(arguments)
-    files = _files(options)
+    with tempfile.TemporaryDirectory() as folder:
+        return judged(options, made(options.made, Path(folder)) if options.made is not None else _files(options))
+
+
+def judged(options: argparse.Namespace, files: list[Path]) -> int:
+    """The matrix on *files*, told as *options* say; the exit code."""
     if not files:
         print(f"no such BROAD trials in {data_folder()}; POISE_DATA says where they are", file=sys.stderr)
         return int(bool(os.environ.get("CI")))
@@ -96,6 +104,15 @@ def write(which: str, cases: Sequence[Case], checks: Sequence[Check], who: Seque
     print(f"wrote the tables of {PAGE.name}", file=sys.stderr)
 
 
+def made(rate: float, folder: Path) -> list[Path]:
+    """An arm, a phone and a robot, 150 s each at *rate* samples a second, measured by an inexpensive sensor."""
+    files = []
+    for number, motion in enumerate((forearm, phone, robot), 91):  # numbered as trials are, beyond them
+        files.append(folder / f"{number}_{motion.__name__}.parquet")
+        poise.write(measure(motion(150.0, rate, 14), Sensor(), seed=14), files[-1])
+    return files
+
+
 def _files(options: argparse.Namespace) -> list[Path]:
     half = HELD_OUT if options.final else CHOSEN
     wanted = options.trials or [f"{number:02d}" for number in half]
@@ -105,6 +122,7 @@ def _files(options: argparse.Namespace) -> list[Path]:
 def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", 1)[0])
     parser.add_argument("--final", action="store_true", help="the trials and seeds that nothing was developed on")
+    parser.add_argument("--made", type=float, metavar="HZ", help="made recordings at this rate instead of the trials")
     parser.add_argument("--methods", default="methods", help="methods of poise, by commas (default all)")
     parser.add_argument(
         "--peers", default="vqf,imufusion", help='peers or packages, by commas (default vqf,imufusion; "" none)'
@@ -121,6 +139,10 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     form.add_argument("--markdown", action="store_true", help="print Markdown tables")
     form.add_argument("--write", action="store_true", help="write the tables into docs/faults.md")
     options = parser.parse_args(arguments)
+    if options.made is not None and (
+        options.write or options.final or options.trials or not 20.0 <= options.made <= 2000.0
+    ):
+        parser.error("--made: expected 20 to 2000 Hz, and none of --write, --final, --trials")
     if options.jobs < 1:
         parser.error(f"--jobs {options.jobs}: expected 1 or more")
     return options

@@ -18,6 +18,7 @@ from poise.simulation import forearm, measure
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
 
+import faults
 from fault_bench import bits, fuzz, injectors, live, report
 from fault_bench.contenders import contender, names
 from fault_bench.injectors import LAST, Injected, Injector
@@ -311,3 +312,14 @@ def test_clean_figures_name_false_alarms(made: Recording, clean: Clean) -> None:
     assert clean_figures(clean)["false alarms"] == 0.0
     loud = replace(clean.attitude, flags=clean.attitude.flags | np.uint32(Flag.GAP))
     assert clean_figures(Clean(made, loud, True, clean.error, clean.inclination))["false alarms"] == 1.0
+
+
+def test_made_recordings_take_the_place_of_trials(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    recordings = [read(file) for file in faults.made(50.0, tmp_path)]
+    assert all(
+        r.rate_hz == pytest.approx(50.0, rel=0.01) and r.truth is not None and r.moving is not None for r in recordings
+    )
+    for wrong in (["--made", "50", "--write"], ["--made", "5"], ["--made", "50", "--final"]):
+        with pytest.raises(SystemExit):
+            faults.main(wrong)
+        assert "--made: expected 20 to 2000 Hz" in capsys.readouterr().err

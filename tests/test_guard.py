@@ -167,7 +167,7 @@ def test_rows_that_come_in_packets_lose_no_rotation(rate: float, kind: dict[str,
     recording = measure(forearm(30.0, rate, seed=3), Sensor(jitter=0.0), seed=3)
     true = poise.estimate(METHOD, recording)
     attitude = poise.estimate(METHOD, replace(recording, time=in_packets(recording.time, 3, **kind)))
-    assert np.degrees(angle_between(attitude.quat, true.quat)).max() < 1.0  # it was up to 137
+    assert np.degrees(angle_between(attitude.quat, true.quat)).max() < 0.5  # it was up to 143
     assert attitude.valid[round(3.0 * rate) :].all()
     assert len(set(flagged(attitude, Flag.GAP))) <= 1  # where they begin
 

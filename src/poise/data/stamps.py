@@ -42,12 +42,14 @@ def rising_steps(time: Floats) -> Floats:
 
 
 def packed(time: Floats) -> Packed | None:
-    """How the rows with the stamps *time* (n,) came in packets; None where each has a stamp of its own."""
+    """How the rows with the stamps *time* (n,), in any unit, came in packets; None where each has a stamp of its own."""
     with np.errstate(invalid="ignore", over="ignore"):
         steps = np.diff(time[np.isfinite(time)])
     forward = steps[(steps >= 0.0) & (steps < 1e300)]
-    if len(forward) < _FEWEST or not (longest := float(np.quantile(forward, 0.98))) > 0.0:
+    # With pauses the mean is too large and too many rows seem to follow at once: if even so they are few, that is all
+    if len(forward) < _FEWEST or np.mean(forward < RIGHT_AFTER * np.mean(forward)) <= OFTEN:
         return None
+    longest = float(np.quantile(forward, 0.98))
     mean = float(np.mean(forward[forward <= _PAUSE * longest]))
     within = (steps >= 0.0) & (steps < RIGHT_AFTER * mean)
     if np.mean(within) <= OFTEN:

@@ -13,7 +13,7 @@ from poise.doctor import axes, offsets, samples, timing, turning, units
 from poise.doctor.axes import Hemisphere
 from poise.doctor.findings import RANK, Diagnosis, Evidence, Finding
 from poise.errors import RecordingError
-from poise.estimators.guard import evened
+from poise.estimators.guard import unpacked
 
 __all__ = ["Corrections", "Diagnosis", "Finding", "Hemisphere", "diagnose"]
 
@@ -46,8 +46,7 @@ def diagnose(
         fixed = Diagnosis(recording, tuple(found)).repairs.apply(recording)
         found += timing.findings(fixed)
         in_packets = packed(fixed.time) is not None
-        if in_packets:
-            fixed = fixed.with_samples(time=evened(fixed.time))
+        fixed = fixed.with_samples(time=unpacked(fixed.time))
         found += samples.findings(fixed)
         if not any(f.severity == "sure" and not f.decided for f in found):
             late = offsets.findings(_without(fixed, dead))
@@ -86,8 +85,7 @@ def _of_units_and_axes(
     if any(f.name == "samples" for f in found):
         return found, None
     alive = _without(recording, dead)
-    time = recording.time * per_second if per_second != 1.0 else recording.time
-    blocks = turning.blocks(alive, evened(time) if packed(time) else time)
+    blocks = turning.blocks(alive, unpacked(recording.time * per_second))
     of_acc = units.of_acc(recording, blocks, constant="acc" in dead)
     found += [f for f in (of_acc, units.of_mag(recording)) if f]
     length = _usual(blocks.acc)

@@ -93,7 +93,7 @@ class Turns(NamedTuple):
 
 
 def blocks(recording: Recording, time: Floats | None = None) -> Blocks:
-    """The block means of *recording*; *time* (n,) s replaces stamps that are in another unit, or of packets."""
+    """The block means of *recording*; *time* (n,) s replaces its stamps, where they are in another unit or of packets."""
     stamps = recording.time if time is None else time
     known = np.isfinite(stamps)
     steps = np.diff(stamps[known])

@@ -101,12 +101,12 @@ class Server:
                 self.recorder.open(self.hub)
             beginning = self.spawn(self._begin())
             await asyncio.wait((beginning,), timeout=_HEAD_START)
-            feeding = [self.spawn(self.feeding.feed(source)) for source in self.feeding.sources]
+            fed = [self.spawn(self.feeding.feed(source)) for source in self.feeding.sources]
             self.spawn(self._ticking())
             try:
                 await serve(self, sockets, ready)
             finally:
-                for task in feeding:
+                for task in fed:
                     task.cancel()
                 while self.hub.starting and self._failure is None:  # their samples wait for a method to be loaded
                     await asyncio.sleep(0.02)

@@ -20,8 +20,9 @@ from poise.data.attitude import Attitude, Provenance
 from poise.data.flags import Flag
 from poise.data.recording import Recording
 from poise.errors import PoiseError, RecordingError
+from poise.estimators.guard import unpacked
 from poise.peers import adapters
-from poise.peers.even import FEWEST, Prepared, period, pieces, prepared, rising, unpacked
+from poise.peers.even import FEWEST, Prepared, period, pieces, prepared, rising
 
 Floats = NDArray[np.float64]
 
@@ -148,7 +149,7 @@ def _on_rows(attitude: Attitude, recording: Recording) -> Attitude:
     """The attitude brought from prepared stamps to the recording's rows."""
     if np.array_equal(attitude.time, recording.time):
         return attitude
-    clock, forward = rising(unpacked(recording).time)
+    clock, forward = rising(unpacked(recording.time))
     placed = attitude.resample(clock)
     placed.flags[~forward] |= np.uint32(Flag.TIME_DISORDER)
     placed.time[:] = recording.time

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from poise.data.recording import Recording
 from poise.data.stamps import packed
 from poise.errors import RecordingError
-from poise.estimators.guard import evened
+from poise.estimators.guard import unpacked
 
 Floats = NDArray[np.float64]
 Rows = NDArray[np.bool_]
@@ -40,13 +40,13 @@ def prepared(recording: Recording) -> Prepared:
     peer takes for silence. Raises :class:`RecordingError` where there is too little to run a filter on.
     """
     _check(recording)
-    given, recording = recording, unpacked(recording)
-    if recording is given and _even(recording.time, _UNEVEN) and _complete(recording):
+    packets = packed(recording.time)
+    if packets is None and _even(recording.time, _UNEVEN) and _complete(recording):
         return Prepared(recording, () if recording.has_mag else (_NO_MAG,))
+    recording = recording.with_samples(time=unpacked(recording.time))
     clock, forward = rising(recording.time)
     seconds = 1.0 / Recording(clock[forward], *(getattr(recording, s)[forward] for s in ("gyr", "acc"))).rate_hz
     grid, regular = _grid(clock[forward], seconds, len(recording))
-    packets = None if recording is given else packed(given.time)
     notes = [f"packets of {packets.words}: taken to be evenly apart"] if packets else []
     notes += _notes(recording, forward, regular)
     gyr, gyr_known = _interpolated(grid, *_own(recording, "gyr", clock, forward))
@@ -67,11 +67,6 @@ def prepared(recording: Recording) -> Prepared:
             f"mag: no sample for more than {GAP:g} s in {np.mean(~mag_known[keep]):.1%} of the rows, left silent"
         )
     return Prepared(even, tuple(notes))
-
-
-def unpacked(recording: Recording) -> Recording:
-    """*recording*, where its rows came in packets, with stamps that are evenly apart; otherwise itself."""
-    return recording.with_samples(time=evened(recording.time)) if packed(recording.time) else recording
 
 
 def period(recording: Recording) -> float:

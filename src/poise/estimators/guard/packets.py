@@ -7,7 +7,7 @@ from typing import NamedTuple
 from poise.data.stamps import OFTEN, RIGHT_AFTER
 from poise.math.compiled import compiled
 
-_UNKNOWN, _LAST, _FIRST = 0, 1, 2  # whose stamp a packet's is thought to be
+_UNKNOWN, _LAST, _FIRST = 0, 1, 2  # rows of a packet
 _SELDOM = 0.1  # of the rows have no stamp of their own: no packets any more
 _LONG = 1.5  # mean steps: what a packet begins with
 _LONGER = 1.5  # times the longest packet lately: what takes more is a gap
@@ -32,8 +32,8 @@ class Packets(NamedTuple):
     inner: float  # s between the last packet's first stamp and its last
     by_last: float  # s²: how badly a packet's rows fit if its stamp is that of its last row
     by_first: float  # … of its first row
-    anchor: int
-    other: float  # s, the usual step if it is the other one
+    anchor: int  # whose stamp a packet's is thought to be
+    other: float  # s, the usual step if it is that of the other row
 
 
 class Followed(NamedTuple):

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from poise.data.flags import CLOCK_JUMP, GAP, JITTER, TIME_DISORDER
+from poise.data.stamps import packed
 from poise.estimators.guard.packets import (
     NONE,
     Packets,
@@ -185,8 +186,13 @@ def _without_stamp(pace: Pace, dt: float) -> Pace:
     )  # fmt: skip
 
 
+def unpacked(time: Floats) -> Floats:
+    """(n,) s: the stamps *time* (n,) s, those of rows that came in packets evenly apart; others are left as they are."""
+    return evened(time) if packed(time) else time
+
+
 def evened(time: Floats, gap: float = 0.2, longest_loss: float = 1.0) -> Floats:
-    """(n,) s: the stamps *time* (n,) as the guard takes them: those of rows in packets evenly apart."""
+    """(n,) s: the stamps *time* (n,) s as the guard takes them, from the first on; *gap* and *longest_loss* are the guard's."""
     even = np.full(len(time), np.nan)
     if len(time):
         _even_out(np.ascontiguousarray(time, float), gap, longest_loss, even)
