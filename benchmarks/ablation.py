@@ -15,6 +15,7 @@ magnet        a magnet attached in the middle of a recording
 field         where the local field points, seen from the reference, and the heading's constant error
 instant       the attitude given out some milliseconds later or earlier
 tried         the rate by trapezoids; windows of the way back; the length of a block
+iron          a magnetometer that was never calibrated: hard iron from the start
 made          made recordings of an inexpensive sensor, and of one with white noise only
 """
 
@@ -291,6 +292,32 @@ def magnet(trials: Trials) -> Iterator[Table]:
     yield title, ["", *RUNS], rows
 
 
+def iron(trials: Trials) -> Iterator[Table]:
+    runs = RUNS | {"causal, as the doctor advises": as_advised}
+    groups = {"that turn": lambda name: "translation" not in name, "that only move": lambda name: "translation" in name}
+    for label, chosen in groups.items():
+        rows: list[list[Cell]] = []
+        for length in (0.0, 5.0, 10.0, 20.0, 40.0, 80.0):
+            found: dict[str, list[Floats]] = {name: [] for name in (*runs, "causal, second half")}
+            for recording in (r for name, r in trials.items() if "undisturbed" in name and chosen(name)):
+                assert recording.mag is not None and recording.moving is not None
+                later = recording.moving & (recording.time >= recording.time[0] + 0.5 * recording.duration)
+                for axis in range(3) if length else range(1):
+                    uncalibrated = replace(recording, mag=recording.mag + length * np.eye(3)[axis])
+                    for name, run in runs.items():
+                        attitude = run(uncalibrated)
+                        found[name].append(np.array(poise.evaluate(attitude, recording).rmse_deg()))
+                        if name == "causal":
+                            second = poise.evaluate(attitude, replace(recording, moving=later))
+                            found["causal, second half"].append(np.array(second.rmse_deg()))
+            cells = [f"{slashed(np.mean(e, axis=0), 2)}, {max(float(v[0]) for v in e):.1f}" for e in found.values()]
+            rows.append([f"{length:g} µT", *cells])
+        title = (
+            f"hard iron on body x, y or z from the start, undisturbed trials {label}: RMSE, degrees, and largest total"
+        )
+        yield title, ["", *found], rows
+
+
 def field(trials: Trials) -> Iterator[Table]:
     rows: list[list[Cell]] = []
     for name, recording in trials.items():
@@ -384,8 +411,8 @@ def made(trials: Trials) -> Iterator[Table]:
 
 SECTIONS: dict[str, Callable[[Trials], Iterator[Table]]] = {
     "trials": per_trial, "without": without, "sensitivity": sensitivity, "late": late, "rates": rates, "six": six,
-    "sigma": sigma, "start": start, "lying": lying, "magnet": magnet, "field": field, "instant": instant, "tried": tried,
-    "made": made,
+    "sigma": sigma, "start": start, "lying": lying, "magnet": magnet, "iron": iron, "field": field, "instant": instant,
+    "tried": tried, "made": made,
 }  # fmt: skip
 
 if __name__ == "__main__":

@@ -166,12 +166,21 @@ class Stream:
 
     def _begin(self, rows: Floats) -> None:
         if self._start is None:
-            self._memory = begin(self._running, rows, self._bias, self._aside)
+            first = rows[:1].copy()
+            first[0, MAG:ACC_AGE] = self._cleared(first[0, MAG:ACC_AGE])
+            self._memory = begin(self._running, first, self._bias, self._aside)
         else:
             self._memory = begin_at(self._running, self._start, self._declination, self._bias, self._aside)
             self._aside[LAST : LAST + 4] = self._start
         if self._known is not None:  # the state's arrays are written into; its numbers hold the bias already
             core(self._running).start_from(innermost(state_of(self._memory)), self._known)
+
+    def _cleared(self, mag: Floats) -> Floats:
+        """The first sample of the magnetometer, without what is known of its hard iron."""
+        if self._known is None:
+            return mag
+        cleared: Floats = core(self._running).cleared(mag, self._known)
+        return cleared
 
     def check(self, now: float) -> Attitude:
         """The attitude at *now* (s, the packets' clock) without a new sample, one row; for a timer.

@@ -13,10 +13,14 @@ from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
     ADDED,
     ANOTHER_BIAS,
+    ANOTHER_IRON,
     BIAS,
     CORRECTIONS,
     ENTRY,
+    FIELD,
+    GOES_ON,
     INJECTED,
+    MAG_DELAY,
     ONE,
     SCALE,
     SIZE,
@@ -91,6 +95,14 @@ def back_through_block(future: Floats, P: Floats, at: int) -> None:
             future[i, ACC_DELAY] += S_l.x * v.x + S_l.y * v.y + S_l.z * v.z
 
 
+@compiled
+def forget_future(future: Floats, k: int) -> None:
+    """What the future says of one error."""
+    for i in range(SIZE):
+        future[i, k], future[k, i] = 0.0, 0.0
+    future[SIZE, k] = 0.0
+
+
 @entry
 def back(log: Floats, future: Floats, corrections: Floats) -> None:
     """From the last entry of *log* to the first: the corrections (n, 22) of ε and bias after each block, what was injected
@@ -115,23 +127,20 @@ def back(log: Floats, future: Floats, corrections: Floats) -> None:
         corrections[n, 18] = log[at + 1, ONE]
         for i in range(3):
             corrections[n, 19 + i] = log[at + i, i]
-        if log[at + 1, ONE] != 0.0:  # attitude and velocity begun anew: the future says nothing of those before
-            for i in range(SIZE + 1):
-                for k in range(3):
-                    future[i, TURN + k] = 0.0
-                    future[i, VELOCITY + k] = 0.0
-                    if i < SIZE:
-                        future[TURN + k, i] = 0.0
-                        future[VELOCITY + k, i] = 0.0
-                    if log[at + 1, ONE] == ANOTHER_BIAS:
-                        future[i, BIAS + k] = 0.0
-                        if i < SIZE:
-                            future[BIAS + k, i] = 0.0
-                if log[at + 1, ONE] == ANOTHER_BIAS:  # and of A, which is that of before
-                    for k in range(9):
-                        future[i, SCALE + k] = 0.0
-                        if i < SIZE:
-                            future[SCALE + k, i] = 0.0
+        event = log[at + 1, ONE]
+        if event != GOES_ON:  # attitude and velocity begun anew: the future says nothing of those before
+            for k in range(3):
+                forget_future(future, TURN + k)
+                forget_future(future, VELOCITY + k)
+            if event == ANOTHER_BIAS:
+                for k in range(BIAS, BIAS + 3):
+                    forget_future(future, k)
+            if event == ANOTHER_IRON:
+                for k in range(FIELD, MAG_DELAY + 1):
+                    forget_future(future, k)
+            if event in (ANOTHER_BIAS, ANOTHER_IRON):  # and of A, which is that of before
+                for k in range(SCALE, SCALE + 9):
+                    forget_future(future, k)
         else:
             for m in range(int(log[at, ONE]) - 1, -1, -1):
                 back_through_correction(future, log, at + CORRECTIONS + 2 * m)

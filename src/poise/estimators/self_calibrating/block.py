@@ -8,18 +8,28 @@ from __future__ import annotations
 from math import atan2, cos, sqrt
 from typing import TYPE_CHECKING
 
+from poise.estimators.self_calibrating.iron import (
+    NOT_SHOWN,
+    forget_lengths,
+    shown_by_lengths,
+    take_iron_over,
+    take_lengths,
+)
 from poise.estimators.self_calibrating.learned import iron_from_before
 from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
     ANOTHER_BIAS,
+    ANOTHER_IRON,
     BEGUN_ANEW,
     BIAS,
     FIELD,
     GOES_ON,
+    HEADING_SET,
     IRON,
     MAG_DELAY,
     SCALE,
     SIZE,
+    SUMS,
     TURN,
     VELOCITY,
     Floats,
@@ -42,7 +52,14 @@ from poise.estimators.self_calibrating.model import (
     vector,
 )
 from poise.estimators.self_calibrating.recall import begin_memory, remember
-from poise.estimators.self_calibrating.watch import contradicted, doubt_bias, turn_per_bias, turned_away, turns_alone
+from poise.estimators.self_calibrating.watch import (
+    contradicted,
+    doubt_bias,
+    forget_watch,
+    turn_per_bias,
+    turned_away,
+    turns_alone,
+)
 from poise.math.compiled import compiled
 from poise.math.matrices import Mat3, matrix, transpose
 from poise.math.quaternions import Quat, conjugate, exp, normalize, rotate, shortest_turn
@@ -109,8 +126,12 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     if s.mags > 0.0:
         e = (1.0 / s.mags) * s.off
         if length < 0.0:  # a hard iron from before, in lengths of the field there
-            held = iron_from_before(known, norm(e))
-            there: Vec3 = (1.0 / s.mags) * s.to_iron @ held
+            to_iron: Mat3 = (1.0 / s.mags) * s.to_iron
+            held = iron_from_before(known.iron, -length, e, to_iron)
+            if held == ZERO:
+                forget(P, IRON, 3, method.initial_iron**2)
+                put(P, X, IRON, ZERO)
+            there: Vec3 = to_iron @ held
             e = e - there
             iron = held / norm(e)
         if not state.begun:
@@ -121,6 +142,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
             q = exp(atan2(e.x, e.y) * UP) * q
         elif dot(e, e) > _ANOTHER**2:
             length, anew = 0.0, True
+            forget_lengths(P)
             forget(P, FIELD, 2, 0.25)
             forget(P, TURN + 2, 1, method.initial_heading**2)
         else:
@@ -155,6 +177,15 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         spread,
         wander,
     )
+    q = normalize(exp(vector(P, X, TURN)) * q)
+    turned, event = 0.0, BEGUN_ANEW if anew else GOES_ON
+    if s.mags > 0.0 and known.length > 0.0 and not anew and not bias_changed:  # 10. Hard iron that the lengths show
+        shown = shown_by_lengths(method, P, iron) if take_lengths(P, s, length) else NOT_SHOWN
+        if shown.length > 0.0:
+            to_iron = (1.0 / s.mags) * s.to_iron
+            after, turned = take_iron_over(method, P, shown, seen + to_iron @ iron, to_iron, after)
+            q, event = exp(turned * UP) * q, ANOTHER_IRON
+            forget_watch(P)
     put_sensor(P, after)
     if state.begun:
         remember(P, after, T)
@@ -163,15 +194,16 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     turn_per_bias(P, s.rotation, T / (method.watch_time + T))
     if bias_changed:  # 9. What was thought to be known of it is not
         doubt_bias(method, P)
+        event = ANOTHER_BIAS
     rested = state.still
     if rate_is_bias:  # and it rests, however far that is from the bias of before
         rested = state.calm
         correct_one(P, BIAS, still.x, method.rest_noise**2)
         correct_one(P, BIAS + 1, still.y, method.rest_noise**2)
         correct_one(P, BIAS + 2, still.z, method.rest_noise**2)
-    enter_block(P, s, ANOTHER_BIAS if bias_changed else (BEGUN_ANEW if anew else GOES_ON))
+    enter_block(P, s, event)
     begin_block(P)
-    q = normalize(exp(vector(P, X, TURN)) * q)
+    P[SUMS + 1, HEADING_SET] = turned
     bias = state.bias + vector(P, X, BIAS)
     return State(q, bias, state.rate, state.mean_gyr, state.mean_acc, state.calm, rested, True, P)
 

@@ -14,11 +14,12 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from poise.data.flags import GYR_CLIPPED, MAG_DISTURBED, REST, UNSETTLED
+from poise.data.flags import GYR_CLIPPED, MAG_DISTURBED, RESET, REST, UNSETTLED
 from poise.data.learned import Learned
 from poise.data.packet import Output, Sample
 from poise.estimators.self_calibrating.block import closed
-from poise.estimators.self_calibrating.learned import check_start, doubts, take_over
+from poise.estimators.self_calibrating.iron import add_length
+from poise.estimators.self_calibrating.learned import check_start, doubts, take_over, without_iron
 from poise.estimators.self_calibrating.learned import learned as known_by_now
 from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
@@ -27,12 +28,14 @@ from poise.estimators.self_calibrating.model import (
     COLUMNS,
     ENTRY,
     FIELD,
+    HEADING_SET,
     IRON,
     MAG_DELAY,
     NOTHING,
     ROWS,
     SCALE,
     SENSOR,
+    SUMS,
     TURN,
     VELOCITY,
     Floats,
@@ -95,6 +98,12 @@ class SelfCalibrating(NamedTuple):
     initial_bias: Annotated[float, "rad/s", "σ of the gyroscope's bias at the start", (1e-9, 10.0)] = radians(1.0)
     initial_scale: Annotated[float, "1", "σ of each element of A at the start", (0.0, 1.0)] = 0.003
     initial_iron: Annotated[float, "1", "σ of the hard iron at the start, in lengths of the field", (0.0, 10.0)] = 3e-3
+    least_iron: Annotated[
+        float,
+        "1",
+        "a hard iron that the field's length shows is taken over from that size on, in lengths of it",
+        (0.0, 1e6),
+    ] = 0.04
     mag_delay: Annotated[float, "s", "expected delay of the magnetometer behind the gyroscope", (-1.0, 1.0)] = 0.008
     mag_delay_sigma: Annotated[float, "s", "σ of that delay", (0.0, 1.0)] = 0.008
     acc_delay_sigma: Annotated[
@@ -196,6 +205,7 @@ class SelfCalibrating(NamedTuple):
             excess += rows * dot(beyond, beyond)
         mags, mag_time, off, to_iron, to_delay = s.mags, s.mag_time, s.off, s.to_iron, s.to_delay
         if present(m):
+            add_length(P, m)
             mags, mag_time = mags + 1.0, mag_time + sample.mag_dt
             if known.length > 0.0:
                 u: Vec3 = transpose(R) @ known.field
@@ -240,6 +250,8 @@ class SelfCalibrating(NamedTuple):
             flags |= UNSETTLED
         if not within(sample.gyr, 0.98 * self.gyr_range):
             flags |= GYR_CLIPPED
+        if float(P[SUMS + 1, HEADING_SET]) != 0.0 and float(P[SUMS, 22]) == 0.0:  # the heading was set in this row
+            flags |= RESET
         if self.log > 0:  # which entry of the log the row stands behind
             flags |= (int(P[SENSOR, 22]) & 0xF) << 28
         return Output(sample.dt, q, state.rate, state.bias, sigma, bias_sigma, flags)
@@ -252,9 +264,13 @@ class SelfCalibrating(NamedTuple):
         """Raises :class:`MethodError` where it cannot start from *learned*."""
         check_start(learned)
 
+    def cleared(self, mag: Floats, learned: Learned) -> Floats:
+        """The first sample of the magnetometer (3,), without the hard iron that is *learned*, if it is to be carried."""
+        return without_iron(mag, learned, self.least_iron)
+
     def start_from(self, state: State, learned: Learned) -> None:
         """Go on from *learned*, that of the same sensor, in a state that has begun with its bias."""
-        take_over(state.P, learned, self.initial_iron)
+        take_over(state.P, learned, self.initial_iron, self.least_iron)
 
     def doubts(self, before: Learned, after: Learned) -> list[str]:
         """What speaks against *before*, which it started from, being of the sensor of *after*: a sentence each."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import radians
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,19 +12,20 @@ from poise.errors import MethodError
 from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
     BIAS,
+    FOUND,
     IRON,
+    LENGTHS,
     MAG_DELAY,
     SCALE,
     SIZE,
     Floats,
-    Sensor,
     forget,
     put_sensor,
     sensor_of,
 )
 from poise.math.compiled import compiled
-from poise.math.matrices import Mat3
-from poise.math.vectors import ZERO, Vec3
+from poise.math.matrices import I3, Mat3
+from poise.math.vectors import ZERO, Vec3, norm
 
 METHOD = "SelfCalibrating"
 # What may change between two recordings of one sensor, as standard deviations added to each number's own.
@@ -104,7 +105,7 @@ def check_start(learned: Learned) -> None:
         raise MethodError("start_from: a field of no length")
 
 
-def take_over(P: Floats, learned: Learned, expected_iron: float) -> None:
+def take_over(P: Floats, learned: Learned, expected_iron: float, least_iron: float) -> None:
     """Begin with *learned*, each number as sure as it was, less what may have changed since; the bias is in the state.
 
     Its correlations come along: several numbers may be known together, none of them alone. The field is of the place and
@@ -133,8 +134,17 @@ def take_over(P: Floats, learned: Learned, expected_iron: float) -> None:
     for name in kept:
         for i in _PLACES[name]:
             P[i, i] += GROWTH[name] ** 2
-    if "hard_iron" in kept:
+    if "hard_iron" in kept and norm(known.iron) < least_iron:  # a larger one is the sensor's own
         _weigh_iron(P, expected_iron)
+
+
+def without_iron(mag: Floats, learned: Learned, least: float) -> Floats:
+    """A sample (3,) without the hard iron that :func:`take_over` carries whole; as it is where that is of another unit."""
+    if "hard_iron" not in learned or not mag.any():
+        return mag
+    length = _length(learned)
+    share = Vec3(*(float(v) / length for v in learned["hard_iron"]["value"]))
+    return mag - iron_from_before(share, length, Vec3(*map(float, mag)), I3) if norm(share) >= least else mag
 
 
 def _weigh_iron(P: Floats, expected: float) -> None:
@@ -150,9 +160,39 @@ def _weigh_iron(P: Floats, expected: float) -> None:
 
 
 @compiled
-def iron_from_before(known: Sensor, seen: float) -> Vec3:
-    """The hard iron in the magnetometer's unit, where the field's length *seen* here is of that unit: else nothing."""
-    return -known.length * known.iron if 1.0 / _LIKE < seen / -known.length < _LIKE else ZERO
+def iron_from_before(share: Vec3, length: float, seen: Vec3, to_iron: Mat3) -> Vec3:
+    """The hard iron, a *share* of a field of that *length*, in its unit, where the field *seen* here is of it: else nothing."""
+    held = length * share
+    most, left = norm(held), norm(seen - to_iron @ held)
+    can_be = (length - most) / _LIKE < norm(seen) < _LIKE * (length + most)
+    return held if can_be and length / _LIKE < left < _LIKE * length else ZERO
+
+
+class KnownIron(NamedTuple):
+    """A hard iron in the magnetometer's unit, its sigma per axis, and the length of the field that it was found in."""
+
+    iron: Floats
+    sigma: float
+    length: float
+
+
+def irons_found(P: Floats) -> int:
+    """How often the lengths of the field have shown one."""
+    return int(P[LENGTHS, FOUND])
+
+
+def known_iron(P: Floats) -> KnownIron:
+    """The hard iron as it is known by now."""
+    known = sensor_of(P)
+    sigma = np.sqrt(P[IRON : IRON + 3, IRON : IRON + 3].trace() / 3.0)
+    return KnownIron(known.length * np.array(known.iron), float(known.length * sigma), known.length)
+
+
+def begin_with_iron(P: Floats, known: KnownIron) -> None:
+    """It is there from the first sample of the magnetometer on."""
+    iron = Vec3(*(float(v) / known.length for v in known.iron))
+    put_sensor(P, sensor_of(P)._replace(iron=iron, length=-known.length))
+    forget(P, IRON, 3, (known.sigma / known.length) ** 2)
 
 
 def doubts(before: Learned, after: Learned) -> list[str]:

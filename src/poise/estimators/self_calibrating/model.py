@@ -25,13 +25,16 @@ TURN, BIAS, SCALE, VELOCITY, FIELD, IRON, MAG_DELAY, ACC_DELAY, SIZE = 0, 3, 6, 
 # One table is the memory: P in its first 25 rows, then these. A NamedTuple of as many numbers would be copied at every step.
 H, X, ROOM = 25, 26, 27  # of a correction: what is measured of the errors, their estimate, P h
 TURNED = 28  # three rows: S_A = Σ R[:, i] g_j dt, column 3 i + j
-SUMS, SENSOR, KEPT, ROWS, COLUMNS = 31, 34, 35, 37, 28  # two rows keep what was known before: recall.py
+SUMS, SENSOR, KEPT, LENGTHS, ROWS, COLUMNS = 31, 34, 35, 37, 38, 28  # two rows keep what was known before: recall.py
+# iron.py: a block's sums of m (3) and |m|², and the turn that the heading was set by, behind those of the second row; how
+# often an iron was found, and the seconds since the lengths were looked at, in the row of lengths.
+SUMMED, HEADING_SET, FOUND, LOOKED = 16, 20, 18, 19
 # Behind that, where a smoother asked for it, one entry a block: P's rows of ε and bias after the corrections, what was
 # injected, what the block added up, and each correction's h and P h. Column 25 of the entry's rows holds single numbers.
 ENTRIES, ENTRY = ROWS, 28
 INJECTED, ADDED, CORRECTIONS, MOST = 6, 7, 10, 9
 ONE = SIZE  # the column of single numbers
-GOES_ON, BEGUN_ANEW, ANOTHER_BIAS = 0.0, 1.0, 2.0  # what became of the attitude, and of the bias, after a block
+GOES_ON, BEGUN_ANEW, ANOTHER_BIAS, ANOTHER_IRON = 0.0, 1.0, 2.0, 3.0  # what became, after a block, of what was known
 
 _NONE = Mat3(ZERO, ZERO, ZERO)
 
@@ -47,7 +50,7 @@ class State(NamedTuple):
     calm: float  # s that neither rate nor force have strayed from their means
     still: float  # s of that in which the mean rate could be the bias
     begun: bool  # a block has been closed
-    P: Floats  # (37, 28): the errors' covariance and, below it, the rest of the memory: see ROWS
+    P: Floats  # (38, 28): the errors' covariance and, below it, the rest of the memory: see ROWS
 
 
 class Sums(NamedTuple):
@@ -352,3 +355,5 @@ def begin_block(P: Floats) -> None:
         for k in range(9):
             P[TURNED + i, k] = 0.0
     put_sums(P, NOTHING)
+    for k in range(SUMMED, HEADING_SET + 1):
+        P[SUMS + 1, k] = 0.0

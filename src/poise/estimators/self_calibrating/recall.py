@@ -18,6 +18,7 @@ from poise.estimators.self_calibrating.model import (
     three,
 )
 from poise.math.compiled import compiled
+from poise.math.matrices import Mat3
 
 _EVERY = 30.0  # s from one to the next: the older of two is 30 to 60 s old
 _VARIANCES, _SPREAD, _WANDER, _AGE = 9, 18, 19, 20  # where, in a row that begins with A
@@ -42,6 +43,12 @@ def begin_memory(P: Floats, known: Sensor) -> None:
 
 
 @compiled
+def scale_before(P: Floats) -> Mat3:
+    """A as it was in the older memory."""
+    return three(P, KEPT + 1, 0)
+
+
+@compiled
 def recall(P: Floats, undisturbed: float) -> None:
     """Goes back to the older memory; *undisturbed* is the mean square that the field has strayed whatever the heading is."""
     known = sensor_of(P)
@@ -49,7 +56,7 @@ def recall(P: Floats, undisturbed: float) -> None:
     spread = min(known.spread, max(float(P[row, _SPREAD]), undisturbed))
     wander = min(known.wander, float(P[row, _WANDER]))
     known = Sensor(
-        three(P, row, 0), known.velocity, known.field, known.iron, known.mag_delay, known.acc_delay, known.length,
+        scale_before(P), known.velocity, known.field, known.iron, known.mag_delay, known.acc_delay, known.length,
         spread, wander,
     )  # fmt: skip
     put_sensor(P, known)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from math import pi
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,12 +20,14 @@ from poise.estimators.batch import feed
 from poise.estimators.engine import Stream
 from poise.estimators.self_calibrating.backward import apply, back
 from poise.estimators.self_calibrating.causal import SelfCalibrating
+from poise.estimators.self_calibrating.learned import KnownIron, begin_with_iron, irons_found, known_iron
 from poise.estimators.self_calibrating.model import COLUMNS as WIDTH
 from poise.estimators.self_calibrating.model import ENTRIES, ENTRY, SENSOR, SIZE, Floats
-from poise.estimators.wrapping import at_gravity
+from poise.estimators.wrapping import at_gravity, innermost
 from poise.math.vectors import Vec3
 
 _PART = 1024  # rows of a recording at a time: what they log stays near the processor
+_SETTLED = 60.0  # s after which a hard iron that was found is known along all axes that the sensor turns about
 _INDEX = np.uint32(28)  # from this bit of the flags on the log's entries are counted
 _KNOWN = np.uint32(KNOWN)  # the flags below it
 
@@ -46,7 +50,7 @@ def smooth(
     The way back starts *overlap* seconds behind each *window* of them, while the way forward goes on; both together take
     about 80 kB of memory a second, at the default length of a block. Other arguments as for :func:`estimate`;
     ``attitude.learning`` is that of the way forward: of what walks the way back gives the bias, in every row, and what does
-    not is that of the last row.
+    not is that of the last row. A hard iron that the way forward finds by the field's length is there from the start on.
     Raises :class:`MethodError` for another method, and what :func:`estimate` raises.
     """
     if not isinstance(recording, Recording):
@@ -57,16 +61,76 @@ def smooth(
     if not (window > 0.0 and overlap >= 0.0):
         raise MethodError(f"window and overlap: expected seconds, found {window!r} and {overlap!r}")
     method = at_gravity(method, recording.gravity)._replace(log=0)
-    stream = Stream(method._replace(log=_PART + 2), start, bias=bias, guard=guard, start_from=start_from)
+    stream = partial(_Stream, method._replace(log=_PART + 2), start, bias=bias, guard=guard, start_from=start_from)
+    both_ways = partial(_both_ways, stream, method, recording, window, overlap, learning, progress)
+    try:
+        return both_ways(None, len(recording))
+    except _IronShown as found:  # then it was there before it was found: once more, with it
+        iron, row = found.iron, found.row
+    try:
+        return both_ways(iron, row)
+    except _IronShown:  # it was not
+        return both_ways(None, 0)
+
+
+class _IronShown(Exception):
+    """On the way forward the lengths of the field have shown a hard iron, at a *row*; it is known since as *iron*."""
+
+    def __init__(self, iron: KnownIron, row: int) -> None:
+        self.iron, self.row = iron, row
+
+
+class _Stream(Stream):
+    """One whose method may know a hard iron from the start on."""
+
+    def __init__(self, *args: Any, iron: KnownIron | None, **options: Any) -> None:
+        super().__init__(*args, **options)
+        self._iron = iron
+
+    @property
+    def P(self) -> Floats:
+        """The method's memory."""
+        memory: Floats = innermost(self.running_state).P
+        return memory
+
+    def _begin(self, rows: Floats) -> None:
+        super()._begin(rows)
+        if self._iron is not None:
+            begin_with_iron(self.P, self._iron)
+
+    def _cleared(self, mag: Floats) -> Floats:
+        if self._iron is None:
+            return super()._cleared(mag)
+        return mag - self._iron.iron if mag.any() else mag  # zeros are a magnetometer that said nothing
+
+
+def _both_ways(
+    stream_of: Callable[..., _Stream],
+    method: SelfCalibrating,
+    recording: Recording,
+    window: float,
+    overlap: float,
+    learning: float | None,
+    progress: Callable[[int], None] | None,
+    iron: KnownIron | None,
+    before: int,
+) -> Attitude:
+    """Forward, from *iron* if one is known, and back. Raises :class:`_IronShown` where one is shown up to row *before*."""
+    stream = stream_of(iron=iron)
     way = _WayBack(recording.time, window, overlap, method.block)
-    past = feed(
-        stream,
-        recording,
-        _PART,
-        after=lambda rows, flags: way.add(stream, rows, flags),
-        learning=learning,
-        progress=progress,
-    )
+    shown = before + 1  # the row by which one was
+
+    def after(rows: slice, flags: NDArray[np.uint32]) -> None:
+        nonlocal shown
+        way.add(stream, rows, flags)
+        if shown > before and irons_found(stream.P):
+            shown = rows.stop
+        if shown <= before:
+            since = recording.time[rows.stop - 1] - recording.time[shown - 1]
+            if not since < _SETTLED or rows.stop == len(recording):
+                raise _IronShown(known_iron(stream.P), shown)
+
+    past = feed(stream, recording, _PART, after=after, learning=learning, progress=progress)
     past.flags[:] &= _KNOWN
     way.finish()
     if len(way.corrections):
@@ -93,7 +157,7 @@ class _WayBack:
         likely = min(int(1.1 * span / block), len(rows)) + 1
         self._log = np.empty((likely * ENTRY, WIDTH))  # memory is taken where it is written
 
-    def add(self, stream: Stream, rows: slice, flags: NDArray[np.uint32]) -> None:
+    def add(self, stream: _Stream, rows: slice, flags: NDArray[np.uint32]) -> None:
         """Take the entries that *stream* has finished in *rows*, whose *flags* count them modulo 16; one a row at most."""
         counted = (flags >> _INDEX).astype(np.int64)
         finished = np.mod(np.diff(counted, prepend=self._count % 16), 16)
@@ -139,12 +203,9 @@ def _longer(array: Floats, least: int) -> Floats:
     return longer
 
 
-def _take(stream: Stream, into: Floats) -> None:
+def _take(stream: _Stream, into: Floats) -> None:
     """Move the finished entries of the log out, (k · ENTRY, WIDTH)."""
-    state = stream.running_state
-    while hasattr(state, "inner"):
-        state = state.inner
-    P: Floats = state.P
+    P = stream.P
     done = int(P[SENSOR, 22] - P[SENSOR, 23])
     into[:] = P[ENTRIES : ENTRIES + done * ENTRY]
     P[ENTRIES : ENTRIES + ENTRY] = P[ENTRIES + done * ENTRY : ENTRIES + (done + 1) * ENTRY]

@@ -1,0 +1,167 @@
+"""Whether the length of the field shows a hard iron that the filter does not know of.
+
+The field is as long whichever way the sensor is turned; with a hard iron beside it, it is longer where the two agree. That
+needs no attitude, and so is right when the heading is still that of field and iron together. Step 10, eq. 27 and 28 of
+``docs/methods/self-calibrating.md``.
+"""
+
+from __future__ import annotations
+
+from math import atan2, sqrt
+from typing import TYPE_CHECKING, NamedTuple
+
+from poise.estimators.self_calibrating.model import (
+    FIELD,
+    FOUND,
+    IRON,
+    LENGTHS,
+    LOOKED,
+    MAG_DELAY,
+    SCALE,
+    SUMMED,
+    SUMS,
+    TURN,
+    Floats,
+    Sensor,
+    Sums,
+    forget,
+    put,
+    put_three,
+    three,
+    vector,
+)
+from poise.estimators.self_calibrating.recall import scale_before
+from poise.math.compiled import compiled
+from poise.math.matrices import I3, Mat3, inverse
+from poise.math.vectors import ZERO, Vec3, dot, unit
+
+if TYPE_CHECKING:
+    from poise.estimators.self_calibrating.causal import SelfCalibrating
+
+_TIME = 60.0  # s that are remembered: enough to turn about all axes, short enough to be at one place
+_EVERY = 1.0  # s of field from one look at what they show to the next
+_OWN = 0.005  # lengths that the magnetometer is off by, however well the lengths agree: its soft iron
+_UNTURNED = 0.05  # lengths: along an axis where the field has moved by no more it says nothing: any iron explains noise
+_ROUNDS = 3  # of the fit: what _UNTURNED keeps it from in the first, where the field has turned, is made up for
+_SURE = 8.0  # sigmas that the iron must be away from none, or from the known one, …
+_OFF = 4.0  # … and from the known one at least: what the filter has begun to learn of it is not to hide it
+_VAGUE = 0.05  # lengths: with a larger sigma it is not taken over
+_ANOTHER_WAY = 0.3  # rad: the heading is set where it is further off than a correction reaches
+_N, _M, _Y, _YM, _YY, _MM = 0, 1, 4, 5, 8, 9  # s of field that count, and the means of m, y = |m|², y m, y², m mᵀ
+
+
+class Shown(NamedTuple):
+    """The hard iron that the lengths show, in lengths of the field as it was known."""
+
+    iron: Vec3
+    length: float  # of the field without it; 0 where no other iron is shown than the known one
+    covariance: Mat3  # of the iron
+    spread: float  # mean square of what the length is off by, in lengths of that
+
+
+NOT_SHOWN = Shown(ZERO, 0.0, Mat3(ZERO, ZERO, ZERO), 0.0)
+
+
+@compiled
+def add_length(P: Floats, m: Vec3) -> None:
+    """A sample's m and |m|², in the magnetometer's unit."""
+    row = SUMS + 1
+    P[row, SUMMED] += m.x
+    P[row, SUMMED + 1] += m.y
+    P[row, SUMMED + 2] += m.z
+    P[row, SUMMED + 3] += m.x * m.x + m.y * m.y + m.z * m.z
+
+
+@compiled
+def forget_lengths(P: Floats) -> None:
+    """No length seen yet."""
+    for k in range(FOUND):
+        P[LENGTHS, k] = 0.0
+    P[LENGTHS, LOOKED] = 0.0
+
+
+@compiled
+def take_lengths(P: Floats, s: Sums, length: float) -> bool:
+    """Takes a block's lengths in, and says whether it is time to look at what they show."""
+    row, per = LENGTHS, 1.0 / (s.mags * length)
+    m, y = per * vector(P, SUMS + 1, SUMMED), per * float(P[SUMS + 1, SUMMED + 3]) / length
+    n = (1.0 - s.mag_time / (_TIME + s.mag_time)) * float(P[row, _N]) + s.mag_time
+    share = s.mag_time / n if n > 0.0 else 0.0
+    mean_m, mean_y, mean_ym = vector(P, row, _M), float(P[row, _Y]), vector(P, row, _YM)
+    mean_yy, mean_mm = float(P[row, _YY]), three(P, row, _MM)
+    P[row, _N], P[row, _Y], P[row, _YY] = n, mean_y + share * (y - mean_y), mean_yy + share * (y * y - mean_yy)
+    put(P, row, _M, mean_m + share * (m - mean_m))
+    put(P, row, _YM, mean_ym + share * (y * m - mean_ym))
+    put_three(P, row, _MM, mean_mm + share * (Mat3(m.x * m, m.y * m, m.z * m) - mean_mm))
+    P[row, LOOKED] += s.mag_time
+    return float(P[row, LOOKED]) >= _EVERY
+
+
+@compiled
+def shown_by_lengths(method: SelfCalibrating, P: Floats, known: Vec3) -> Shown:
+    """What iron the lengths show, where that is not the *known* one, and its P (eq. 27).
+
+    |m|² = 2 mᵀb + |h|² − |b|² is a straight line in m: least squares over _TIME, from the known iron on.
+    """
+    row = LENGTHS
+    P[row, LOOKED] = 0.0
+    n, mean_m, mean_y, mean_mm = float(P[row, _N]), vector(P, row, _M), float(P[row, _Y]), three(P, row, _MM)
+    C: Mat3 = mean_mm - Mat3(mean_m.x * mean_m, mean_m.y * mean_m, mean_m.z * mean_m)
+    c = vector(P, row, _YM) - mean_y * mean_m
+    b, square, information, inverted = known, 0.0, C, C
+    for _ in range(_ROUNDS):
+        square = mean_y - 2.0 * dot(b, mean_m) + dot(b, b)
+        information = C + (_UNTURNED * _UNTURNED * square) * I3
+        inverted = inverse(information)
+        b = b + 0.5 * (inverted @ (c - 2.0 * (C @ b)))
+    square, off = mean_y - 2.0 * dot(b, mean_m) + dot(b, b), b - known
+    least = method.least_iron**2 * square
+    if square <= 0.0 or 4.0 * dot(off, off) < least or max(dot(off, off), dot(b, b)) < least:
+        return NOT_SHOWN
+    left = max(float(P[row, _YY]) - mean_y * mean_y - 4.0 * dot(b, c - C @ b), 0.0)  # variance of y about the line
+    variance = (0.25 * left + _OWN * _OWN * square * square) * method.field_time / n
+    far, large = dot(off, information @ off), dot(b, information @ b)
+    if far < _OFF * _OFF * variance or max(far, large) < _SURE * _SURE * variance:
+        return NOT_SHOWN
+    covariance = variance * inverted
+    if covariance.x.x + covariance.y.y + covariance.z.z > _VAGUE * _VAGUE * square:
+        return NOT_SHOWN
+    return Shown(b, sqrt(square), covariance, 0.25 * left / (square * square))
+
+
+@compiled
+def take_iron_over(
+    method: SelfCalibrating, P: Floats, shown: Shown, raw: Vec3, to_iron: Mat3, now: Sensor
+) -> tuple[Sensor, float]:
+    """What is known with the iron *shown*, and by what angle the attitude is to be turned about up (eq. 28).
+
+    *raw* is a block's field with the iron in it, Earth frame and lengths, *to_iron* its mean R₀. What was learned beside a
+    wrong heading does not count: the delay, and what A has become of late.
+    """
+    per = 1.0 / shown.length
+    length, iron = now.length * shown.length, per * shown.iron
+    C: Mat3 = (per * per) * shown.covariance
+    variance = C.x.x + C.y.y + C.z.z
+    e: Vec3 = unit(raw - to_iron @ shown.iron)
+    away = atan2(e.x, e.y)
+    turn = away if abs(away) > _ANOTHER_WAY else 0.0
+    if turn != 0.0:
+        forget(P, TURN + 2, 1, method.initial_heading**2)
+    else:
+        P[TURN + 2, TURN + 2] += away * away
+    forget(P, IRON, 3, 0.0)
+    put(P, IRON, IRON, C.x)
+    put(P, IRON + 1, IRON, C.y)
+    put(P, IRON + 2, IRON, C.z)
+    forget(P, FIELD, 2, 0.25)
+    forget(P, MAG_DELAY, 1, method.mag_delay_sigma**2)
+    for k in range(SCALE, SCALE + 9):
+        forget(P, k, 1, method.initial_scale**2)
+    forget_lengths(P)
+    P[LENGTHS, FOUND] += 1.0
+    field = Vec3(0.0, sqrt(e.x * e.x + e.y * e.y), e.z)
+    spread = max(min(now.spread, shown.spread), variance)
+    known = Sensor(
+        scale_before(P), now.velocity, field, iron, method.mag_delay, now.acc_delay, length, spread, now.wander
+    )
+    return known, turn

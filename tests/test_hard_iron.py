@@ -1,0 +1,235 @@
+"""A magnetometer that was never calibrated: what the field's length tells the flagship of its hard iron."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+from scipy.spatial.transform import Rotation
+
+import poise
+from data_files import data_path
+from helpers import angle_between, plain
+from poise.data.flags import Flag
+from poise.data.packet import Packet
+from poise.estimators.self_calibrating.iron import add_length, forget_lengths, shown_by_lengths, take_lengths
+from poise.estimators.self_calibrating.learned import iron_from_before
+from poise.estimators.self_calibrating.model import COLUMNS, NOTHING, ROWS, begin_block
+from poise.math.matrices import I3
+from poise.math.vectors import ZERO, Vec3
+from poise.simulation import PERFECT, Triad, forearm, measure, robot
+
+Floats = NDArray[np.float64]
+
+FLAGSHIP = poise.SelfCalibrating()
+NEVER = FLAGSHIP._replace(least_iron=1e6)  # the hard iron is left to the filter
+WHITE = replace(PERFECT, gyr=Triad(noise=1e-4), acc=Triad(noise=0.002), mag=Triad(noise=0.05))
+IRON = (24.0, -20.0, 25.0)  # µT, 40 of them in a field of 50
+
+
+@cache
+def calibrated(seed: int = 4) -> poise.Recording:
+    return measure(forearm(120.0, 100.0, seed), WHITE, seed=1)
+
+
+def with_iron(
+    recording: poise.Recording, iron: tuple[float, float, float] = IRON, since: float = 0.0
+) -> poise.Recording:
+    """A hard iron (µT) beside the magnetometer, from a share of the recording on."""
+    assert recording.mag is not None
+    there = recording.time >= recording.time[0] + since * recording.duration
+    return replace(recording, mag=recording.mag + np.outer(there, iron))
+
+
+def degrees(attitude: poise.Attitude, recording: poise.Recording, part: slice = slice(None)) -> float:
+    """Root mean square over some of the rows."""
+    assert recording.truth is not None
+    off = angle_between(attitude.quat[part], recording.truth.quat[part])
+    return float(np.degrees(np.sqrt(np.mean(off**2))))
+
+
+def second_half(recording: poise.Recording) -> slice:
+    return slice(len(recording) // 2, None)
+
+
+@pytest.mark.parametrize("seed", [4, 5, 6])
+def test_the_heading_is_right_once_the_sensor_has_turned(seed: int) -> None:
+    recording = with_iron(calibrated(seed))
+    attitude = poise.estimate(FLAGSHIP, recording)
+    late = second_half(recording)
+    assert degrees(attitude, recording, late) < 1.5
+    assert degrees(poise.estimate(NEVER, recording), recording, late) > 10.0
+    assert attitude.learned is not None
+    found, sigma = np.array(attitude.learned["hard_iron"]["value"]), np.array(attitude.learned["hard_iron"]["sigma"])
+    assert np.linalg.norm(found - IRON) < 2.0
+    assert (np.abs(found - IRON) < 4.0 * sigma).all()
+
+
+def test_the_jump_of_the_heading_is_published() -> None:
+    recording = with_iron(calibrated(), (0.0, -80.0, 0.0))
+    attitude = poise.estimate(FLAGSHIP, recording)
+    (reset,) = attitude.resets()
+    before, after = attitude.quat[reset.row - 1], attitude.quat[reset.row]
+    assert np.degrees(angle_between(before, after)) > 20.0
+    east, north, up = np.degrees(reset.delta)
+    assert abs(up) > 20.0 and np.hypot(east, north) < 5.0
+    assert attitude.valid[reset.row :].all()
+    assert degrees(attitude, recording, second_half(recording)) < 1.5
+    stream = poise.Stream(FLAGSHIP)
+    for row in range(reset.row + 1):
+        stream.update(Packet(recording.time[row], recording.gyr[row], recording.acc[row], recording.mag[row]))  # type: ignore[index]
+    assert stream.resets == 1 and stream.reset_time == recording.time[reset.row]
+    np.testing.assert_allclose(np.degrees(stream.reset_delta), (east, north, up), atol=1.0)
+
+
+@pytest.mark.parametrize("seed", [4, 5, 6])
+def test_backwards_it_is_there_from_the_start_on(seed: int) -> None:
+    recording = with_iron(calibrated(seed))
+    attitude = poise.smooth(recording)
+    assert degrees(attitude, recording) < 1.0
+    assert not attitude.resets()
+    assert attitude.provenance is not None and attitude.provenance.method == "SelfCalibrating, smoothed"
+    assert degrees(poise.smooth(recording, NEVER), recording) > 10.0
+
+
+@pytest.mark.parametrize("iron", [IRON, (0.0, -80.0, 0.0), (200.0, 0.0, 50.0)])
+def test_backwards_a_magnet_that_came_later_was_not_there_before(iron: tuple[float, float, float]) -> None:
+    recording = with_iron(calibrated(), iron, since=0.5)
+    first = slice(0, len(recording) // 2 - 500)
+    assert degrees(poise.smooth(recording), recording, first) < 1.0
+
+
+def test_a_robot_that_only_turns_about_up() -> None:
+    recording = with_iron(measure(robot(120.0, 100.0, 2), WHITE, seed=1), (20.0, 10.0, 0.0))
+    late = second_half(recording)
+    assert degrees(poise.estimate(FLAGSHIP, recording), recording, late) < 2.0
+    assert degrees(poise.estimate(NEVER, recording), recording, late) > 10.0
+
+
+def test_a_magnetometer_without_iron_is_left_alone() -> None:
+    recording = calibrated()
+    attitude, alone = poise.estimate(FLAGSHIP, recording), poise.estimate(NEVER, recording)
+    np.testing.assert_array_equal(attitude.table, alone.table)
+    np.testing.assert_array_equal(attitude.flags, alone.flags)
+
+
+def test_a_sensor_that_lies_still_shows_none() -> None:
+    """Whatever the noise, any iron would explain it."""
+    rng = np.random.default_rng(3)
+    time = np.arange(6000) / 50.0
+    gyr, acc = 1e-4 * rng.normal(size=(6000, 3)), np.tile([0.0, 0.0, 9.81], (6000, 1))
+    for noise in (0.0, 0.1, 1.0, 5.0):
+        mag = np.array([30.0, 40.0, -20.0]) + noise * rng.normal(size=(6000, 3))
+        recording = poise.Recording(time, gyr, acc, mag)
+        shown, alone = poise.estimate(FLAGSHIP, recording), poise.estimate(NEVER, recording)
+        np.testing.assert_array_equal(shown.table, alone.table)
+
+
+def test_it_is_carried_to_the_next_recording_of_the_sensor() -> None:
+    first, second = with_iron(calibrated(4)), with_iron(calibrated(5))
+    before = poise.estimate(FLAGSHIP, first)
+    early = slice(0, 3000)
+    warm, cold = (poise.estimate(FLAGSHIP, second, start_from=start) for start in (before, None))
+    assert degrees(warm, second, early) < 1.0 and not warm.resets()
+    assert degrees(cold, second, early) > 10.0
+
+
+@pytest.mark.parametrize("strength", [20.0, 80.0])
+@pytest.mark.parametrize("number", ["05", "09", "21"])
+def test_real_trials_beside_iron_are_as_without(number: str, strength: float) -> None:
+    recording = poise.read(next(data_path("broad").glob(f"{number}_*.mat")))
+    assert recording.moving is not None
+    iron = strength * np.array([0.48, -0.6, 0.64])
+    beside = with_iron(recording, (iron[0], iron[1], iron[2]))
+    late = replace(recording, moving=recording.moving & (recording.time > recording.time[0] + 0.5 * recording.duration))
+    clean, attitude = poise.estimate(FLAGSHIP, recording), poise.estimate(FLAGSHIP, beside)
+    assert poise.evaluate(attitude, late).rmse_deg().total < poise.evaluate(clean, late).rmse_deg().total + 0.5
+    clean, attitude = poise.smooth(recording), poise.smooth(beside)
+    assert (
+        poise.evaluate(attitude, recording).rmse_deg().total < poise.evaluate(clean, recording).rmse_deg().total + 0.7
+    )
+
+
+@pytest.mark.parametrize("number", ["01", "03", "05", "07", "09", "11", "15", "21", "25", "27", "29", "31", "33", "35"])
+def test_no_calibrated_trial_is_taken_for_one_that_is_not(number: str) -> None:
+    """Magnets that come, stand by or are attached among them."""
+    recording = poise.read(next(data_path("broad").glob(f"{number}_*.mat")))
+    attitude, alone = poise.estimate(FLAGSHIP, recording), poise.estimate(NEVER, recording)
+    np.testing.assert_array_equal(attitude.table, alone.table)
+
+
+def memory_of(field: Floats, block: float = 0.1) -> Floats:
+    """The filter's memory after blocks of one sample each (n, 3), in lengths of the field."""
+    P = np.zeros((ROWS, COLUMNS))
+    forget_lengths(P)
+    for m in field:
+        begin_block(P)
+        add_length(P, Vec3(*map(float, m)))
+        take_lengths(P, NOTHING._replace(mags=1.0, mag_time=block), 1.0)
+    return P
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_fit_is_that_of_a_sphere(seed: int) -> None:
+    """Beside scipy's, by distance from the centre, over samples that count the same: few beside what is remembered."""
+    rng = np.random.default_rng(seed)
+    iron = rng.normal(size=3)
+    field = Rotation.random(400, rng=rng).apply([0.0, 0.4, -0.9]) + iron + 0.01 * rng.normal(size=(400, 3))
+
+    def off(x: Floats) -> Floats:
+        return np.asarray(np.linalg.norm(field - x[:3], axis=1) - x[3])
+
+    expected = least_squares(off, [0.0, 0.0, 0.0, 1.0]).x
+    shown = shown_by_lengths(FLAGSHIP, memory_of(field), ZERO)
+    np.testing.assert_allclose(shown.iron, expected[:3], atol=0.01)
+    assert shown.length == pytest.approx(expected[3], abs=0.01)
+    sigma = np.sqrt(np.diag(np.array(shown.covariance)))
+    assert (np.abs(np.array(shown.iron) - iron) < 3.0 * sigma).all()
+
+
+def test_what_is_known_is_not_shown_again() -> None:
+    rng = np.random.default_rng(1)
+    field = Rotation.random(400, rng=rng).apply([0.0, 0.4, -0.9]) + np.array([0.5, 0.0, 0.0])
+    P = memory_of(field)
+    for known, there in (
+        ((0.5, 0.0, 0.0), False),
+        ((0.49, 0.0, 0.0), False),
+        ((0.4, 0.0, 0.0), True),
+        ((0.0, 0.0, 0.0), True),
+    ):
+        assert (shown_by_lengths(FLAGSHIP, P, Vec3(*known)).length > 0.0) is there
+    assert shown_by_lengths(NEVER, P, ZERO).length == 0.0
+
+
+def test_kernels_and_the_python_behind_them_agree() -> None:
+    field = Rotation.random(300, rng=np.random.default_rng(2)).apply([0.0, 0.4, -0.9]) + np.array([0.3, -0.2, 0.1])
+    P = memory_of(field)
+    by_python = plain(shown_by_lengths)(FLAGSHIP, P.copy(), ZERO)
+    by_kernel = shown_by_lengths(FLAGSHIP, P.copy(), ZERO)
+    np.testing.assert_allclose(by_python.iron, by_kernel.iron, rtol=1e-9)
+    np.testing.assert_allclose(np.array(by_python.covariance), np.array(by_kernel.covariance), rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("seen", "carried"),
+    [
+        ((0.0, 50.0, 0.0), True),  # iron along x, the field along y
+        ((200.0, 50.0, 0.0), True),  # both
+        ((0.5, 0.0, 0.0), False),  # gauss
+        ((50_000.0, 0.0, 0.0), False),  # nT
+    ],
+)
+def test_iron_of_another_unit_is_not_carried(seen: tuple[float, float, float], carried: bool) -> None:
+    share = Vec3(4.0 if seen[0] == 200.0 else 0.5, 0.0, 0.0)
+    held = iron_from_before(share, 50.0, Vec3(*seen), I3)
+    assert (held != ZERO) is carried
+
+
+def test_samples_that_carry_the_flag_are_told_in_words() -> None:
+    attitude = poise.estimate(FLAGSHIP, with_iron(calibrated(), (0.0, -80.0, 0.0)))
+    told = [reason for reason in attitude.reasons() if reason.flag == Flag.RESET]
+    assert len(told) == 1 and "magnetometer" in told[0].sentence
