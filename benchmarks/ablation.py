@@ -292,30 +292,55 @@ def magnet(trials: Trials) -> Iterator[Table]:
     yield title, ["", *RUNS], rows
 
 
+def settled(attitude: poise.Attitude, other: poise.Attitude, recording: Recording) -> float:
+    """Seconds of the recording in motion until *attitude* is within 5 degrees of the *other* for good."""
+    assert recording.moving is not None
+    begun = float(recording.time[recording.moving][0])
+    off = np.flatnonzero(arrays.angle(arrays.multiply(attitude.quat, arrays.conjugate(other.quat))) > np.radians(5.0))
+    return max(float(recording.time[off[-1]]) - begun, 0.0) if len(off) else 0.0
+
+
+CORNERS = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)]) / np.sqrt(3.0)  # of a tetrahedron
+
+
 def iron(trials: Trials) -> Iterator[Table]:
     runs = RUNS | {"causal, as the doctor advises": as_advised}
-    groups = {"that turn": lambda name: "translation" not in name, "that only move": lambda name: "translation" in name}
-    for label, chosen in groups.items():
+    undisturbed = {name: recording for name, recording in trials.items() if "undisturbed" in name}
+    for label, moved in (("that turn", False), ("that only move", True)):
+        chosen = [recording for name, recording in undisturbed.items() if ("translation" in name) is moved]
+        calibrated = [poise.estimate(FLAGSHIP, recording) for recording in chosen]
         rows: list[list[Cell]] = []
+        times: list[list[Cell]] = []
         for length in (0.0, 5.0, 10.0, 20.0, 40.0, 80.0):
             found: dict[str, list[Floats]] = {name: [] for name in (*runs, "causal, second half")}
-            for recording in (r for name, r in trials.items() if "undisturbed" in name and chosen(name)):
+            within: dict[str, list[Floats]] = {"first half": [], "second half": [], "offline": []}
+            seconds = []
+            for recording, other in zip(chosen, calibrated, strict=True):
                 assert recording.mag is not None and recording.moving is not None
-                later = recording.moving & (recording.time >= recording.time[0] + 0.5 * recording.duration)
-                for axis in range(3) if length else range(1):
-                    uncalibrated = replace(recording, mag=recording.mag + length * np.eye(3)[axis])
-                    for name, run in runs.items():
-                        attitude = run(uncalibrated)
+                later = recording.time >= recording.time[0] + 0.5 * recording.duration
+                for corner in CORNERS if length else CORNERS[:1]:
+                    beside = replace(recording, mag=recording.mag + length * corner)
+                    given = {name: run(beside) for name, run in runs.items()}
+                    for name, attitude in given.items():
                         found[name].append(np.array(poise.evaluate(attitude, recording).rmse_deg()))
-                        if name == "causal":
-                            second = poise.evaluate(attitude, replace(recording, moving=later))
-                            found["causal, second half"].append(np.array(second.rmse_deg()))
+                    half = replace(recording, moving=recording.moving & later)
+                    found["causal, second half"].append(np.array(poise.evaluate(given["causal"], half).rmse_deg()))
+                    seconds.append(settled(given["causal"], other, recording))
+                    for name, attitude, part in (
+                        ("first half", given["causal"], ~later),
+                        ("second half", given["causal"], later),
+                        ("offline", given["offline"], later | ~later),
+                    ):
+                        ratio = np.abs(axis_errors(attitude, recording)[:, 2]) / attitude.sigma[:, 2]
+                        within[name].append(ratio[part & recording.moving & np.isfinite(ratio)] < 3.0)
             cells = [f"{slashed(np.mean(e, axis=0), 2)}, {max(float(v[0]) for v in e):.1f}" for e in found.values()]
             rows.append([f"{length:g} µT", *cells])
-        title = (
-            f"hard iron on body x, y or z from the start, undisturbed trials {label}: RMSE, degrees, and largest total"
-        )
-        yield title, ["", *found], rows
+            shares = [100.0 * float(np.mean(np.concatenate(part))) for part in within.values()]
+            times.append([f"{length:g} µT", float(np.median(seconds)), max(seconds), *shares])
+        title = f"hard iron from the start, in four directions, undisturbed trials {label}"
+        yield f"{title}: RMSE, degrees, and largest total", ["", *found], rows
+        columns = ["", "median", "longest", *(f"% within 3 sigma about up: {name}" for name in within)]
+        yield f"{title}: s in motion until within 5 degrees of the calibrated, and sigma", columns, times
 
 
 def field(trials: Trials) -> Iterator[Table]:

@@ -48,7 +48,7 @@ SENTENCES: dict[Flag, str] = {
     Flag.TIME_DISORDER: "time stamp missing or not after the one before: taken for the usual interval, or held",
     Flag.GAP: "gap in the time stamps: the motion inside it is unknown",
     Flag.LOST: "the rotation was not measured for too long: the attitude is unknown",
-    Flag.RESET: "started anew from the accelerometer and magnetometer, with the bias it had",
+    Flag.RESET: "set anew from the accelerometer and magnetometer, with the bias it had: the attitude jumps",
     Flag.SILENT: "no sample has arrived in time: the attitude now is unknown",
     Flag.REST: "at rest: the gyroscope's bias is being measured",
     Flag.ACC_DOUBTED: "specific force far from gravity: the accelerometer counts less",
