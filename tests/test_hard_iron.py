@@ -129,6 +129,25 @@ def test_a_sensor_that_lies_still_shows_none() -> None:
         np.testing.assert_array_equal(shown.table, alone.table)
 
 
+def test_a_restart_knows_of_it() -> None:
+    recording = with_iron(calibrated())
+    gap = (recording.time > 60.0) & (recording.time < 65.0)
+    cut = recording[~gap]
+    attitude = poise.estimate(FLAGSHIP, cut)
+    again = [reset.row for reset in attitude.resets() if reset.time > 60.0][-1]
+    as_calibrated = poise.estimate(FLAGSHIP, calibrated()[~gap])
+    assert again < np.searchsorted(cut.time, 68.5)  # 3 s after the gap, and a block
+    assert np.degrees(angle_between(attitude.quat[again:], as_calibrated.quat[again:])).max() < 5.0
+
+
+def test_a_magnetometer_that_comes_later_has_it_from_its_first_sample_on() -> None:
+    recording = with_iron(calibrated())
+    assert recording.mag is not None
+    late = replace(recording, mag=np.where((recording.time < 40.0)[:, None], np.nan, recording.mag))
+    there = slice(int(np.searchsorted(recording.time, 41.1)), None)
+    assert degrees(poise.smooth(late), late, there) < 1.0
+
+
 def test_it_is_carried_to_the_next_recording_of_the_sensor() -> None:
     first, second = with_iron(calibrated(4)), with_iron(calibrated(5))
     before = poise.estimate(FLAGSHIP, first)
@@ -169,7 +188,7 @@ def memory_of(field: Floats, block: float = 0.1) -> Floats:
     for m in field:
         begin_block(P)
         add_length(P, Vec3(*map(float, m)))
-        take_lengths(P, NOTHING._replace(mags=1.0, mag_time=block), 1.0)
+        take_lengths(FLAGSHIP, P, NOTHING._replace(mags=1.0, mag_time=block), 1.0, Vec3(1.0, 0.0, 0.0))
     return P
 
 

@@ -1,4 +1,4 @@
-"""What an attitude's flags say, told: stretches with a sentence, and the rows at which a method was started anew."""
+"""What an attitude's flags say, told: stretches with a sentence, and the rows at which an attitude was set anew."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Reason(NamedTuple):
 
 
 class Reset(NamedTuple):
-    """A row at which the method was started anew."""
+    """A row at which the attitude was set anew."""
 
     row: int
     time: float

@@ -251,7 +251,7 @@ class Stream:
 
     @property
     def resets(self) -> int:
-        """How often the method was started anew so far: rows flagged RESET."""
+        """How often the attitude was set anew so far: rows flagged RESET."""
         return int(self._aside[RESETS])
 
     @property

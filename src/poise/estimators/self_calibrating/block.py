@@ -9,6 +9,7 @@ from math import atan2, cos, sqrt
 from typing import TYPE_CHECKING
 
 from poise.estimators.self_calibrating.iron import (
+    ANOTHER_WAY,
     NOT_SHOWN,
     forget_lengths,
     shown_by_lengths,
@@ -68,6 +69,7 @@ from poise.math.vectors import UP, ZERO, Vec3, dot, norm, unit
 if TYPE_CHECKING:
     from poise.estimators.self_calibrating.causal import SelfCalibrating
 
+_UNKNOWN = 0.5  # rad: σ of a heading that a correction, which is linear, may not reach
 _ANOTHER = 100.0  # lengths: what was taken for the field, so much smaller than what came then, was none
 
 
@@ -122,7 +124,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     # 7. Magnetometer
     field, length, spread, iron = known.field, known.length, known.spread, known.iron
     anew = not state.begun
-    e = ZERO
+    e, turned = ZERO, 0.0
     if s.mags > 0.0:
         e = (1.0 / s.mags) * s.off
         if length < 0.0:  # a hard iron from before, in lengths of the field there
@@ -141,10 +143,17 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
             field = Vec3(0.0, sqrt(e.x * e.x + e.y * e.y) / length, e.z / length)
             q = exp(atan2(e.x, e.y) * UP) * q
         elif dot(e, e) > _ANOTHER**2:
-            length, anew = 0.0, True
+            length, anew, iron = 0.0, True, ZERO
             forget_lengths(P)
+            forget(P, IRON, 3, method.initial_iron**2)
+            put(P, X, IRON, ZERO)
             forget(P, FIELD, 2, 0.25)
             forget(P, TURN + 2, 1, method.initial_heading**2)
+        elif P[TURN + 2, TURN + 2] > _UNKNOWN**2 and abs(atan2(e.x, e.y + field.y)) > ANOTHER_WAY:
+            turned, anew = atan2(e.x, e.y + field.y), True  # begun anew beside a hard iron, that may be
+            q = exp(turned * UP) * q
+            forget(P, TURN + 2, 1, _UNKNOWN**2)
+            e = Vec3(0.0, sqrt(e.x * e.x + (e.y + field.y) ** 2) - field.y, e.z)
         else:
             share = s.mag_time / (method.spread_time + s.mag_time)
             spread += share * (min(dot(e, e) / 3.0, 9.0 * spread) - spread)
@@ -178,12 +187,14 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         wander,
     )
     q = normalize(exp(vector(P, X, TURN)) * q)
-    turned, event = 0.0, BEGUN_ANEW if anew else GOES_ON
+    event = BEGUN_ANEW if anew else GOES_ON
     if s.mags > 0.0 and known.length > 0.0 and not anew and not bias_changed:  # 10. Hard iron that the lengths show
-        shown = shown_by_lengths(method, P, iron) if take_lengths(P, s, length) else NOT_SHOWN
+        body_turn = ZERO if rest else T * still
+        shown = shown_by_lengths(method, P, iron) if take_lengths(method, P, s, length, body_turn) else NOT_SHOWN
         if shown.length > 0.0:
-            to_iron = (1.0 / s.mags) * s.to_iron
-            after, turned = take_iron_over(method, P, shown, seen + to_iron @ iron, to_iron, after)
+            by_block = matrix(exp(vector(P, X, TURN)))  # the attitude has been corrected since
+            to_iron = (1.0 / s.mags) * (by_block @ s.to_iron)
+            after, turned = take_iron_over(method, P, shown, by_block @ seen + to_iron @ iron, to_iron, after)
             q, event = exp(turned * UP) * q, ANOTHER_IRON
             forget_watch(P)
     put_sensor(P, after)

@@ -19,10 +19,11 @@ from poise.data.learned import Learned
 from poise.data.packet import Output, Sample
 from poise.estimators.self_calibrating.block import closed
 from poise.estimators.self_calibrating.iron import add_length
-from poise.estimators.self_calibrating.learned import check_start, doubts, take_over, without_iron
+from poise.estimators.self_calibrating.learned import check_start, doubts, iron_from_before, take_over, without_iron
 from poise.estimators.self_calibrating.learned import learned as known_by_now
 from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
+    BEGAN,
     BEGUN_ANEW,
     BIAS,
     COLUMNS,
@@ -30,6 +31,7 @@ from poise.estimators.self_calibrating.model import (
     FIELD,
     HEADING_SET,
     IRON,
+    LENGTHS,
     MAG_DELAY,
     NOTHING,
     ROWS,
@@ -54,7 +56,7 @@ from poise.estimators.self_calibrating.model import (
 )
 from poise.estimators.self_calibrating.watch import forget_watch, settled
 from poise.math.compiled import compiled
-from poise.math.matrices import Mat3, matrix, transpose
+from poise.math.matrices import I3, Mat3, matrix, transpose
 from poise.math.quaternions import attitude_of, exp, renormalized, rotate
 from poise.math.vectors import UP, ZERO, Vec3, cross, dot, present, within
 
@@ -161,6 +163,10 @@ class SelfCalibrating(NamedTuple):
     def restart(self, state: State, sample: Sample, bias: Vec3) -> State:
         """Attitude from acc and mag anew; what was learned of the sensors, the bias too, stays."""
         P = state.P
+        known = sensor_of(P)
+        iron = known.length * known.iron
+        if known.length < 0.0:
+            iron = iron_from_before(known.iron, -known.length, sample.mag, I3)
         unsure_attitude(self, P)
         if state.begun:
             forget(P, TURN, 2, (4.0 * self.initial_tilt) ** 2)  # it may well be in motion
@@ -168,7 +174,8 @@ class SelfCalibrating(NamedTuple):
         begin_block(P)
         forget_watch(P)
         put(P, SENSOR, 9, ZERO)
-        attitude = attitude_of(sample.acc, sample.mag, 0.0)
+        put(P, LENGTHS, BEGAN, ZERO)
+        attitude = attitude_of(sample.acc, sample.mag - iron, 0.0)
         return State(attitude, state.bias, ZERO, sample.gyr, sample.acc, 0.0, 0.0, state.begun, P)
 
     def step(self, state: State, sample: Sample) -> State:
@@ -250,7 +257,7 @@ class SelfCalibrating(NamedTuple):
             flags |= UNSETTLED
         if not within(sample.gyr, 0.98 * self.gyr_range):
             flags |= GYR_CLIPPED
-        if float(P[SUMS + 1, HEADING_SET]) != 0.0 and float(P[SUMS, 22]) == 0.0:  # the heading was set in this row
+        if float(P[SUMS + 1, HEADING_SET]) != 0.0 and float(P[SUMS, 1]) == 0.0:  # the heading was set in this row
             flags |= RESET
         if self.log > 0:  # which entry of the log the row stands behind
             flags |= (int(P[SENSOR, 22]) & 0xF) << 28

@@ -11,6 +11,9 @@ from math import atan2, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 from poise.estimators.self_calibrating.model import (
+    BEGAN,
+    COLUMNS,
+    ELAPSED,
     FIELD,
     FOUND,
     IRON,
@@ -21,6 +24,7 @@ from poise.estimators.self_calibrating.model import (
     SUMMED,
     SUMS,
     TURN,
+    TURNED_SINCE,
     Floats,
     Sensor,
     Sums,
@@ -33,20 +37,26 @@ from poise.estimators.self_calibrating.model import (
 from poise.estimators.self_calibrating.recall import scale_before
 from poise.math.compiled import compiled
 from poise.math.matrices import I3, Mat3, inverse
-from poise.math.vectors import ZERO, Vec3, dot, unit
+from poise.math.vectors import ZERO, Vec3, dot, norm, unit
 
 if TYPE_CHECKING:
     from poise.estimators.self_calibrating.causal import SelfCalibrating
 
 _TIME = 60.0  # s that are remembered: enough to turn about all axes, short enough to be at one place
+_TURN = 0.1  # rad: another direction of the field
 _EVERY = 1.0  # s of field from one look at what they show to the next
 _OWN = 0.005  # lengths that the magnetometer is off by, however well the lengths agree: its soft iron
 _UNTURNED = 0.05  # lengths: along an axis where the field has moved by no more it says nothing: any iron explains noise
-_ROUNDS = 3  # of the fit: what _UNTURNED keeps it from in the first, where the field has turned, is made up for
+_ROUNDS = (
+    20  # of the fit at most: what _UNTURNED keeps it from in the first, where the field has turned, is made up for
+)
 _SURE = 8.0  # sigmas that the iron must be away from none, or from the known one, …
 _OFF = 4.0  # … and from the known one at least: what the filter has begun to learn of it is not to hide it
 _VAGUE = 0.05  # lengths: with a larger sigma it is not taken over
-_ANOTHER_WAY = 0.3  # rad: the heading is set where it is further off than a correction reaches
+_CAME = (
+    0.1  # lengths: what the heading was set by must have been beside that iron; one that came later has not turned it
+)
+ANOTHER_WAY = 0.3  # rad: the heading is set where it is further off than a correction reaches
 _N, _M, _Y, _YM, _YY, _MM = 0, 1, 4, 5, 8, 9  # s of field that count, and the means of m, y = |m|², y m, y², m mᵀ
 
 
@@ -75,25 +85,41 @@ def add_length(P: Floats, m: Vec3) -> None:
 @compiled
 def forget_lengths(P: Floats) -> None:
     """No length seen yet."""
-    for k in range(FOUND):
+    found = P[LENGTHS, FOUND]
+    for k in range(COLUMNS):
         P[LENGTHS, k] = 0.0
-    P[LENGTHS, LOOKED] = 0.0
+    P[LENGTHS, FOUND] = found
 
 
 @compiled
-def take_lengths(P: Floats, s: Sums, length: float) -> bool:
-    """Takes a block's lengths in, and says whether it is time to look at what they show."""
+def take_lengths(method: SelfCalibrating, P: Floats, s: Sums, length: float, turn: Vec3) -> bool:
+    """Takes a block's lengths in where the sensor has turned since the last, and says whether to look at what they show.
+
+    *turn* is the gyroscope's (rad, body frame). What moves the field while nothing turns is no iron on the sensor.
+    """
     row, per = LENGTHS, 1.0 / (s.mags * length)
     m, y = per * vector(P, SUMS + 1, SUMMED), per * float(P[SUMS + 1, SUMMED + 3]) / length
-    n = (1.0 - s.mag_time / (_TIME + s.mag_time)) * float(P[row, _N]) + s.mag_time
-    share = s.mag_time / n if n > 0.0 else 0.0
+    since = vector(P, row, TURNED_SINCE) + turn
+    elapsed = float(P[row, ELAPSED]) + s.mag_time
+    put(P, row, TURNED_SINCE, since)
+    P[row, ELAPSED] = elapsed
+    if vector(P, row, BEGAN) == ZERO:
+        put(P, row, BEGAN, m)
+    n = float(P[row, _N])
+    if n > 0.0 and dot(since, since) < _TURN * _TURN:
+        return False
+    weight = min(elapsed, method.field_time)
+    n = (1.0 - elapsed / (_TIME + elapsed)) * n + weight
+    share = weight / n if n > 0.0 else 0.0
     mean_m, mean_y, mean_ym = vector(P, row, _M), float(P[row, _Y]), vector(P, row, _YM)
     mean_yy, mean_mm = float(P[row, _YY]), three(P, row, _MM)
     P[row, _N], P[row, _Y], P[row, _YY] = n, mean_y + share * (y - mean_y), mean_yy + share * (y * y - mean_yy)
     put(P, row, _M, mean_m + share * (m - mean_m))
     put(P, row, _YM, mean_ym + share * (y * m - mean_ym))
     put_three(P, row, _MM, mean_mm + share * (Mat3(m.x * m, m.y * m, m.z * m) - mean_mm))
-    P[row, LOOKED] += s.mag_time
+    put(P, row, TURNED_SINCE, ZERO)
+    P[row, ELAPSED] = 0.0
+    P[row, LOOKED] += weight
     return float(P[row, LOOKED]) >= _EVERY
 
 
@@ -113,7 +139,10 @@ def shown_by_lengths(method: SelfCalibrating, P: Floats, known: Vec3) -> Shown:
         square = mean_y - 2.0 * dot(b, mean_m) + dot(b, b)
         information = C + (_UNTURNED * _UNTURNED * square) * I3
         inverted = inverse(information)
-        b = b + 0.5 * (inverted @ (c - 2.0 * (C @ b)))
+        step: Vec3 = 0.5 * (inverted @ (c - 2.0 * (C @ b)))
+        b = b + step
+        if dot(step, step) < _UNTURNED * _UNTURNED * square:
+            break
     square, off = mean_y - 2.0 * dot(b, mean_m) + dot(b, b), b - known
     least = method.least_iron**2 * square
     if square <= 0.0 or 4.0 * dot(off, off) < least or max(dot(off, off), dot(b, b)) < least:
@@ -126,6 +155,12 @@ def shown_by_lengths(method: SelfCalibrating, P: Floats, known: Vec3) -> Shown:
     covariance = variance * inverted
     if covariance.x.x + covariance.y.y + covariance.z.z > _VAGUE * _VAGUE * square:
         return NOT_SHOWN
+    if abs(norm(vector(P, row, BEGAN) - b) - sqrt(square)) > _CAME * sqrt(square):
+        return NOT_SHOWN
+    unseen: Mat3 = (
+        _UNTURNED * _UNTURNED * square
+    ) * inverted  # share of an axis that nothing is known of: iron as elsewhere
+    covariance = covariance + (dot(b, b) / 3.0) * (unseen @ unseen)
     return Shown(b, sqrt(square), covariance, 0.25 * left / (square * square))
 
 
@@ -141,10 +176,9 @@ def take_iron_over(
     per = 1.0 / shown.length
     length, iron = now.length * shown.length, per * shown.iron
     C: Mat3 = (per * per) * shown.covariance
-    variance = C.x.x + C.y.y + C.z.z
     e: Vec3 = unit(raw - to_iron @ shown.iron)
     away = atan2(e.x, e.y)
-    turn = away if abs(away) > _ANOTHER_WAY else 0.0
+    turn = away if abs(away) > ANOTHER_WAY else 0.0
     if turn != 0.0:
         forget(P, TURN + 2, 1, method.initial_heading**2)
     else:
@@ -160,7 +194,7 @@ def take_iron_over(
     forget_lengths(P)
     P[LENGTHS, FOUND] += 1.0
     field = Vec3(0.0, sqrt(e.x * e.x + e.y * e.y), e.z)
-    spread = max(min(now.spread, shown.spread), variance)
+    spread = max(min(now.spread, shown.spread), C.x.x + C.y.y + C.z.z)
     known = Sensor(
         scale_before(P), now.velocity, field, iron, method.mag_delay, now.acc_delay, length, spread, now.wander
     )

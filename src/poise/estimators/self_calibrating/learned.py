@@ -98,7 +98,7 @@ def check_start(learned: Learned) -> None:
         unit, expected = learned[name]["unit"], _UNITS.get(name, _UNIT)
         if unit != expected:
             raise MethodError(f"start_from: {name} in {unit!r}, expected {expected!r}")
-        largest = _LARGEST.get(name, 10.0 * _length(learned))
+        largest = _LARGEST.get(name, (100.0 if name == "hard_iron" else 10.0) * _length(learned))
         if np.max(np.abs(learned[name]["value"])) > largest or np.max(learned[name]["sigma"]) > 10.0 * largest:
             raise MethodError(f"start_from: {name} {learned[name]['value']} {unit} is that of no sensor")
     if "field" in learned and not _length(learned) > 0.0:

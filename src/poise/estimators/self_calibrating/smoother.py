@@ -62,7 +62,7 @@ def smooth(
         raise MethodError(f"window and overlap: expected seconds, found {window!r} and {overlap!r}")
     method = at_gravity(method, recording.gravity)._replace(log=0)
     stream = partial(_Stream, method._replace(log=_PART + 2), start, bias=bias, guard=guard, start_from=start_from)
-    both_ways = partial(_both_ways, stream, method, recording, window, overlap, learning, progress)
+    both_ways = partial(_both_ways, stream, method, recording, window, overlap, learning, _rising(progress))
     try:
         return both_ways(None, len(recording))
     except _IronShown as found:  # then it was there before it was found: once more, with it
@@ -71,6 +71,20 @@ def smooth(
         return both_ways(iron, row)
     except _IronShown:  # it was not
         return both_ways(None, 0)
+
+
+def _rising(progress: Callable[[int], None] | None) -> Callable[[int], None] | None:
+    """*progress* that does not fall back where the way forward is begun again."""
+    if progress is None:
+        return None
+    most = 0
+
+    def rising(rows: int) -> None:
+        nonlocal most
+        most = max(most, rows)
+        progress(most)
+
+    return rising
 
 
 class _IronShown(Exception):
@@ -118,17 +132,18 @@ def _both_ways(
     """Forward, from *iron* if one is known, and back. Raises :class:`_IronShown` where one is shown up to row *before*."""
     stream = stream_of(iron=iron)
     way = _WayBack(recording.time, window, overlap, method.block)
-    shown = before + 1  # the row by which one was
+    shown: int | None = None  # the row by which one was
 
     def after(rows: slice, flags: NDArray[np.uint32]) -> None:
         nonlocal shown
         way.add(stream, rows, flags)
-        if shown > before and irons_found(stream.P):
+        if shown is None and rows.stop <= before and irons_found(stream.P):
             shown = rows.stop
-        if shown <= before:
+        if shown is not None:
             since = recording.time[rows.stop - 1] - recording.time[shown - 1]
-            if not since < _SETTLED or rows.stop == len(recording):
-                raise _IronShown(known_iron(stream.P), shown)
+            known = known_iron(stream.P)
+            if known.length > 0.0 and (not since < _SETTLED or rows.stop == len(recording)):
+                raise _IronShown(known, shown)
 
     past = feed(stream, recording, _PART, after=after, learning=learning, progress=progress)
     past.flags[:] &= _KNOWN
