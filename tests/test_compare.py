@@ -261,7 +261,7 @@ def test_a_flag_explains_only_what_it_can(recording: poise.Recording, blind: poi
         blind, {"x": departures.Judged(attitude, errors, True)}, recording.truth, np.radians(10)
     )
     told = " ".join(found.reasons)
-    assert "counts less (80% of the stretch)" in told and "started anew" in told and "0.5 s before it begins" in told
+    assert "counts less (80% of the stretch)" in told and "set anew" in told and "0.5 s before it begins" in told
     assert "magnetometer sample" not in told  # a missing magnetometer does not tilt anything
 
 

@@ -16,7 +16,7 @@ from data_files import data_path
 from helpers import angle_between, plain
 from poise.data.flags import Flag
 from poise.data.packet import Packet
-from poise.estimators.self_calibrating.iron import add_length, forget_lengths, shown_by_lengths, take_lengths
+from poise.estimators.self_calibrating.iron import add_length, add_turn, forget_lengths, shown_by_lengths, take_lengths
 from poise.estimators.self_calibrating.learned import iron_from_before
 from poise.estimators.self_calibrating.model import COLUMNS, NOTHING, ROWS, begin_block
 from poise.math.matrices import I3
@@ -129,6 +129,77 @@ def test_a_sensor_that_lies_still_shows_none() -> None:
         np.testing.assert_array_equal(shown.table, alone.table)
 
 
+@pytest.mark.parametrize("seconds", [0.0, 3.0])
+@pytest.mark.parametrize("strength", [5.0, 20.0, 80.0])
+def test_a_magnet_that_comes_while_the_sensor_lies_still_is_none_on_it(strength: float, seconds: float) -> None:
+    """Two clusters are a straight line, and so is a ramp: any iron explains them, but nothing has turned."""
+    rng = np.random.default_rng(int(strength))
+    time = np.arange(9000) / 100.0
+    direction = rng.normal(size=3)
+    come = np.clip((time - 30.0) / max(seconds, 1e-9), 0.0, 1.0)
+    mag = np.array([0.0, 20.0, -45.0]) + strength * np.outer(come, direction / np.linalg.norm(direction))
+    gyr, acc = 1e-4 * rng.normal(size=(9000, 3)), np.tile([0.0, 0.0, 9.81], (9000, 1))
+    recording = poise.Recording(time, gyr, acc, mag + 0.05 * rng.normal(size=(9000, 3)))
+    found, alone = poise.estimate(FLAGSHIP, recording), poise.estimate(NEVER, recording)
+    np.testing.assert_array_equal(found.table, alone.table)
+
+
+@pytest.mark.parametrize("iron", [(10.0, 0.0, 0.0), (24.0, -20.0, 25.0), (0.0, -80.0, 0.0)])
+def test_a_magnet_that_came_before_the_motion_has_not_turned_the_heading(iron: tuple[float, float, float]) -> None:
+    recording = calibrated()
+    assert recording.mag is not None and recording.truth is not None
+    rest = 3000
+    rows = np.maximum(np.arange(len(recording) + rest) - rest, 0)
+    time = np.arange(len(rows)) / 100.0
+    still = (np.arange(len(rows)) < rest)[:, None]
+    mag = recording.mag[rows] + np.outer(time > 10.0, iron)
+    made = poise.Recording(time, np.where(still, 0.0, recording.gyr[rows]), recording.acc[rows], mag)
+    attitude = poise.estimate(FLAGSHIP, made)
+    truth = recording.truth.quat[rows]
+    assert np.degrees(angle_between(attitude.quat, truth)).max() < 5.0
+
+
+@pytest.mark.parametrize("up", [-30.0, 0.0, 20.0, 60.0])
+def test_iron_along_an_axis_that_did_not_turn_has_an_honest_sigma(up: float) -> None:
+    recording = with_iron(measure(robot(120.0, 100.0, 2), WHITE, seed=1), (20.0, 10.0, up))
+    attitude = poise.estimate(FLAGSHIP, recording)
+    assert degrees(attitude, recording, second_half(recording)) < 4.0
+    assert attitude.learned is not None
+    found, sigma = np.array(attitude.learned["hard_iron"]["value"]), np.array(attitude.learned["hard_iron"]["sigma"])
+    assert (np.abs(found - (20.0, 10.0, up)) < 3.0 * sigma).all()
+
+
+@pytest.mark.parametrize("strength", [200.0, 600.0])
+def test_iron_of_many_times_the_field(strength: float) -> None:
+    recording = with_iron(calibrated(), (strength, 0.0, 0.0))
+    attitude = poise.estimate(FLAGSHIP, recording)
+    assert degrees(attitude, recording, second_half(recording)) < 1.5
+    assert degrees(poise.estimate(FLAGSHIP, recording, start_from=attitude), recording, slice(0, 3000)) < 1.5
+
+
+def test_with_a_slow_accelerometer_it_is_published_once() -> None:
+    recording = with_iron(calibrated(), (0.0, -80.0, 0.0))
+    slow = np.where((np.arange(len(recording)) % 8 == 0)[:, None], recording.acc, np.nan)
+    attitude = poise.estimate(FLAGSHIP, replace(recording, acc=slow))
+    assert len(attitude.resets()) == 1
+
+
+def test_backwards_beside_a_magnetometer_that_breaks() -> None:
+    recording = with_iron(calibrated(), (0.0, -80.0, 0.0))
+    assert recording.mag is not None
+    mag = recording.mag.copy()
+    mag[6000:6008] *= 1000.0
+    mag[6008:] = 0.0
+    attitude = poise.smooth(replace(recording, mag=mag))
+    assert np.isfinite(attitude.quat).all()
+
+
+def test_progress_does_not_fall_back() -> None:
+    seen: list[int] = []
+    poise.smooth(with_iron(calibrated()), progress=seen.append)
+    assert seen == sorted(seen) and seen[-1] == len(calibrated())
+
+
 def test_a_restart_knows_of_it() -> None:
     recording = with_iron(calibrated())
     gap = (recording.time > 60.0) & (recording.time < 65.0)
@@ -181,6 +252,16 @@ def test_no_calibrated_trial_is_taken_for_one_that_is_not(number: str) -> None:
     np.testing.assert_array_equal(attitude.table, alone.table)
 
 
+@pytest.mark.parametrize("every", [15, 60])
+@pytest.mark.parametrize("number", ["01", "07", "15", "27", "33"])
+def test_a_slow_magnetometer_is_no_reason_either(number: str, every: int) -> None:
+    """Few samples fit any line."""
+    recording = poise.read(next(data_path("broad").glob(f"{number}_*.mat")))
+    mag = np.where((np.arange(len(recording)) % every == 0)[:, None], recording.mag, np.nan)
+    slow = replace(recording, mag=mag)
+    np.testing.assert_array_equal(poise.estimate(FLAGSHIP, slow).table, poise.estimate(NEVER, slow).table)
+
+
 def memory_of(field: Floats, block: float = 0.1) -> Floats:
     """The filter's memory after blocks of one sample each (n, 3), in lengths of the field."""
     P = np.zeros((ROWS, COLUMNS))
@@ -188,7 +269,8 @@ def memory_of(field: Floats, block: float = 0.1) -> Floats:
     for m in field:
         begin_block(P)
         add_length(P, Vec3(*map(float, m)))
-        take_lengths(FLAGSHIP, P, NOTHING._replace(mags=1.0, mag_time=block), 1.0, Vec3(1.0, 0.0, 0.0))
+        add_turn(P, Vec3(1.0, 0.0, 0.0))
+        take_lengths(FLAGSHIP, P, NOTHING._replace(mags=1.0, mag_time=block), 1.0)
     return P
 
 

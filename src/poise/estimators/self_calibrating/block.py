@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from poise.estimators.self_calibrating.iron import (
     ANOTHER_WAY,
     NOT_SHOWN,
+    add_turn,
     forget_lengths,
     shown_by_lengths,
     take_iron_over,
@@ -149,8 +150,12 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
             put(P, X, IRON, ZERO)
             forget(P, FIELD, 2, 0.25)
             forget(P, TURN + 2, 1, method.initial_heading**2)
-        elif P[TURN + 2, TURN + 2] > _UNKNOWN**2 and abs(atan2(e.x, e.y + field.y)) > ANOTHER_WAY:
-            turned, anew = atan2(e.x, e.y + field.y), True  # begun anew beside a hard iron, that may be
+        elif (
+            P[TURN + 2, TURN + 2] > _UNKNOWN**2
+            and dot(iron, iron) > method.least_iron**2  # which the sample that it was begun anew from may be smeared by
+            and abs(atan2(e.x, e.y + field.y)) > ANOTHER_WAY
+        ):
+            turned, anew = atan2(e.x, e.y + field.y), True
             q = exp(turned * UP) * q
             forget(P, TURN + 2, 1, _UNKNOWN**2)
             e = Vec3(0.0, sqrt(e.x * e.x + (e.y + field.y) ** 2) - field.y, e.z)
@@ -188,9 +193,10 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     )
     q = normalize(exp(vector(P, X, TURN)) * q)
     event = BEGUN_ANEW if anew else GOES_ON
+    if not rest:
+        add_turn(P, T * still)
     if s.mags > 0.0 and known.length > 0.0 and not anew and not bias_changed:  # 10. Hard iron that the lengths show
-        body_turn = ZERO if rest else T * still
-        shown = shown_by_lengths(method, P, iron) if take_lengths(method, P, s, length, body_turn) else NOT_SHOWN
+        shown = shown_by_lengths(method, P, iron) if take_lengths(method, P, s, length) else NOT_SHOWN
         if shown.length > 0.0:
             by_block = matrix(exp(vector(P, X, TURN)))  # the attitude has been corrected since
             to_iron = (1.0 / s.mags) * (by_block @ s.to_iron)

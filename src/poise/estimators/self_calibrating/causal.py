@@ -163,10 +163,11 @@ class SelfCalibrating(NamedTuple):
     def restart(self, state: State, sample: Sample, bias: Vec3) -> State:
         """Attitude from acc and mag anew; what was learned of the sensors, the bias too, stays."""
         P = state.P
-        known = sensor_of(P)
-        iron = known.length * known.iron
-        if known.length < 0.0:
-            iron = iron_from_before(known.iron, -known.length, sample.mag, I3)
+        known, iron = sensor_of(P), ZERO
+        if dot(known.iron, known.iron) > self.least_iron**2:
+            iron = known.length * known.iron
+            if known.length < 0.0:
+                iron = iron_from_before(known.iron, -known.length, sample.mag, I3)
         unsure_attitude(self, P)
         if state.begun:
             forget(P, TURN, 2, (4.0 * self.initial_tilt) ** 2)  # it may well be in motion

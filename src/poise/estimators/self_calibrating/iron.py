@@ -23,6 +23,7 @@ from poise.estimators.self_calibrating.model import (
     SCALE,
     SUMMED,
     SUMS,
+    TAKEN,
     TURN,
     TURNED_SINCE,
     Floats,
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
 _TIME = 60.0  # s that are remembered: enough to turn about all axes, short enough to be at one place
 _TURN = 0.1  # rad: another direction of the field
 _EVERY = 1.0  # s of field from one look at what they show to the next
+_FITTED = 4.0  # numbers that the line has: as many samples fit any
 _OWN = 0.005  # lengths that the magnetometer is off by, however well the lengths agree: its soft iron
 _UNTURNED = 0.05  # lengths: along an axis where the field has moved by no more it says nothing: any iron explains noise
 _ROUNDS = (
@@ -92,21 +94,28 @@ def forget_lengths(P: Floats) -> None:
 
 
 @compiled
-def take_lengths(method: SelfCalibrating, P: Floats, s: Sums, length: float, turn: Vec3) -> bool:
+def add_turn(P: Floats, turn: Vec3) -> None:
+    """A block's turn (rad, body frame), by the gyroscope."""
+    put(P, LENGTHS, TURNED_SINCE, vector(P, LENGTHS, TURNED_SINCE) + turn)
+
+
+@compiled
+def take_lengths(method: SelfCalibrating, P: Floats, s: Sums, length: float) -> bool:
     """Takes a block's lengths in where the sensor has turned since the last, and says whether to look at what they show.
 
-    *turn* is the gyroscope's (rad, body frame). What moves the field while nothing turns is no iron on the sensor.
+    What moves the field while nothing turns is no iron on the sensor, and a gyroscope that turns while the field stands has
+    another bias.
     """
     row, per = LENGTHS, 1.0 / (s.mags * length)
     m, y = per * vector(P, SUMS + 1, SUMMED), per * float(P[SUMS + 1, SUMMED + 3]) / length
-    since = vector(P, row, TURNED_SINCE) + turn
+    since = vector(P, row, TURNED_SINCE)
     elapsed = float(P[row, ELAPSED]) + s.mag_time
-    put(P, row, TURNED_SINCE, since)
     P[row, ELAPSED] = elapsed
     if vector(P, row, BEGAN) == ZERO:
         put(P, row, BEGAN, m)
     n = float(P[row, _N])
-    if n > 0.0 and dot(since, since) < _TURN * _TURN:
+    moved = m - vector(P, SUMS + 1, TAKEN)
+    if n > 0.0 and (dot(since, since) < _TURN * _TURN or dot(moved, moved) < _UNTURNED * _UNTURNED):
         return False
     weight = min(elapsed, method.field_time)
     n = (1.0 - elapsed / (_TIME + elapsed)) * n + weight
@@ -117,6 +126,7 @@ def take_lengths(method: SelfCalibrating, P: Floats, s: Sums, length: float, tur
     put(P, row, _M, mean_m + share * (m - mean_m))
     put(P, row, _YM, mean_ym + share * (y * m - mean_ym))
     put_three(P, row, _MM, mean_mm + share * (Mat3(m.x * m, m.y * m, m.z * m) - mean_mm))
+    put(P, SUMS + 1, TAKEN, m)
     put(P, row, TURNED_SINCE, ZERO)
     P[row, ELAPSED] = 0.0
     P[row, LOOKED] += weight
@@ -131,7 +141,10 @@ def shown_by_lengths(method: SelfCalibrating, P: Floats, known: Vec3) -> Shown:
     """
     row = LENGTHS
     P[row, LOOKED] = 0.0
-    n, mean_m, mean_y, mean_mm = float(P[row, _N]), vector(P, row, _M), float(P[row, _Y]), three(P, row, _MM)
+    samples = float(P[row, _N]) / method.field_time  # that stand by themselves
+    if samples < _FITTED + 1.0:
+        return NOT_SHOWN
+    mean_m, mean_y, mean_mm = vector(P, row, _M), float(P[row, _Y]), three(P, row, _MM)
     C: Mat3 = mean_mm - Mat3(mean_m.x * mean_m, mean_m.y * mean_m, mean_m.z * mean_m)
     c = vector(P, row, _YM) - mean_y * mean_m
     b, square, information, inverted = known, 0.0, C, C
@@ -148,7 +161,7 @@ def shown_by_lengths(method: SelfCalibrating, P: Floats, known: Vec3) -> Shown:
     if square <= 0.0 or 4.0 * dot(off, off) < least or max(dot(off, off), dot(b, b)) < least:
         return NOT_SHOWN
     left = max(float(P[row, _YY]) - mean_y * mean_y - 4.0 * dot(b, c - C @ b), 0.0)  # variance of y about the line
-    variance = (0.25 * left + _OWN * _OWN * square * square) * method.field_time / n
+    variance = (0.25 * left * samples / (samples - _FITTED) + _OWN * _OWN * square * square) / samples
     far, large = dot(off, information @ off), dot(b, information @ b)
     if far < _OFF * _OFF * variance or max(far, large) < _SURE * _SURE * variance:
         return NOT_SHOWN
