@@ -28,7 +28,7 @@ Floats = NDArray[np.float64]
 FLAGSHIP = poise.SelfCalibrating()
 NEVER = FLAGSHIP._replace(least_iron=1e6)  # the hard iron is left to the filter
 WHITE = replace(PERFECT, gyr=Triad(noise=1e-4), acc=Triad(noise=0.002), mag=Triad(noise=0.05))
-IRON = (24.0, -20.0, 25.0)  # µT, 40 of them in a field of 50
+IRON = (24.0, -20.0, 25.0)  # µT: 40, in a field of 45
 
 
 @cache

@@ -345,7 +345,7 @@ class Attitude:
         return reasons(self.time, self.flags, bridge)
 
     def resets(self) -> list[Reset]:
-        """Every row at which the method was set anew, and by how much that turned the attitude.
+        """Every row at which the attitude was set anew, and by how much that turned it.
 
         Whoever integrates or controls on the attitude takes the turn out instead of following it.
         """

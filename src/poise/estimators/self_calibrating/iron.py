@@ -48,16 +48,12 @@ _TURN = 0.1  # rad: another direction of the field
 _EVERY = 1.0  # s of field from one look at what they show to the next
 _FITTED = 4.0  # numbers that the line has: as many samples fit any
 _OWN = 0.005  # lengths that the magnetometer is off by, however well the lengths agree: its soft iron
-_UNTURNED = 0.05  # lengths: along an axis where the field has moved by no more it says nothing: any iron explains noise
-_ROUNDS = (
-    20  # of the fit at most: what _UNTURNED keeps it from in the first, where the field has turned, is made up for
-)
+_UNTURNED = 0.05  # lengths: along an axis where the field has moved by no more, any iron explains its noise
+_ROUNDS = 20  # of the fit at most: they make up for what _UNTURNED keeps it from where the field has turned
 _SURE = 8.0  # sigmas that the iron must be away from none, or from the known one, …
 _OFF = 4.0  # … and from the known one at least: what the filter has begun to learn of it is not to hide it
 _VAGUE = 0.05  # lengths: with a larger sigma it is not taken over
-_CAME = (
-    0.1  # lengths: what the heading was set by must have been beside that iron; one that came later has not turned it
-)
+_CAME = 0.1  # lengths: what the heading was set by must fit that iron; one that came later has not turned it
 ANOTHER_WAY = 0.3  # rad: the heading is set where it is further off than a correction reaches
 _N, _M, _Y, _YM, _YY, _MM = 0, 1, 4, 5, 8, 9  # s of field that count, and the means of m, y = |m|², y m, y², m mᵀ
 
@@ -170,9 +166,8 @@ def shown_by_lengths(method: SelfCalibrating, P: Floats, known: Vec3) -> Shown:
         return NOT_SHOWN
     if abs(norm(vector(P, row, BEGAN) - b) - sqrt(square)) > _CAME * sqrt(square):
         return NOT_SHOWN
-    unseen: Mat3 = (
-        _UNTURNED * _UNTURNED * square
-    ) * inverted  # share of an axis that nothing is known of: iron as elsewhere
+    # Along the share of an axis that nothing is known of, iron as elsewhere.
+    unseen: Mat3 = (_UNTURNED * _UNTURNED * square) * inverted
     covariance = covariance + (dot(b, b) / 3.0) * (unseen @ unseen)
     return Shown(b, sqrt(square), covariance, 0.25 * left / (square * square))
 

@@ -26,10 +26,9 @@ TURN, BIAS, SCALE, VELOCITY, FIELD, IRON, MAG_DELAY, ACC_DELAY, SIZE = 0, 3, 6, 
 H, X, ROOM = 25, 26, 27  # of a correction: what is measured of the errors, their estimate, P h
 TURNED = 28  # three rows: S_A = Σ R[:, i] g_j dt, column 3 i + j
 SUMS, SENSOR, KEPT, LENGTHS, ROWS, COLUMNS = 31, 34, 35, 37, 38, 28  # two rows keep what was known before: recall.py
-# iron.py: a block's sums of m (3) and |m|², the turn that the heading was set by, and the m (3) of the last block that was
-# taken, behind those of the second row; how
-# often an iron was found, the seconds since the lengths were looked at, since the last one the turn (3), the m (3) that the
-# heading was set by, and the seconds since the last, in the row of lengths.
+# iron.py keeps, behind the sums of the second row, a block's sums of m (3) and |m|², the turn that the heading was set by, and
+# the m (3) of the last block that was taken. In the row of lengths, behind the means: how often an iron was found, the seconds
+# since they were looked at, the turn (3) since the last block, the m (3) that the heading was set by, the seconds since.
 SUMMED, HEADING_SET, TAKEN = 16, 20, 21
 FOUND, LOOKED, TURNED_SINCE, BEGAN, ELAPSED = 18, 19, 20, 23, 26
 # Behind that, where a smoother asked for it, one entry a block: P's rows of ε and bias after the corrections, what was
