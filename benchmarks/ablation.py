@@ -33,11 +33,12 @@ from scipy.spatial.transform import Rotation
 
 import poise
 from accuracy import trial_files
-from poise.data.flags import MAG_DISTURBED, REST
+from poise.data.flags import HEADING_UNPROVEN, MAG_DISTURBED, REST
 from poise.data.packet import Packet
 from poise.data.recording import Recording
 from poise.estimators.parameters import parameters
-from poise.estimators.self_calibrating.model import ACC_DELAY, SENSOR, forget
+from poise.estimators.self_calibrating.covariance import forget
+from poise.estimators.self_calibrating.model import ACC_DELAY, SENSOR
 from poise.math import arrays
 from poise.peers import PEERS
 from poise.simulation import Sensor, Triad, forearm, measure, phone, robot
@@ -314,6 +315,8 @@ def iron(trials: Trials) -> Iterator[Table]:
         for length in (0.0, 5.0, 10.0, 20.0, 40.0, 80.0):
             found: dict[str, list[Floats]] = {name: [] for name in (*runs, "causal, second half")}
             within: dict[str, list[Floats]] = {"first half": [], "second half": [], "offline": []}
+            told: dict[str, list[Floats]] = {"of those outside, causal": [], "offline": []}
+            flagged: list[Floats] = []
             seconds = []
             for recording, other in zip(chosen, calibrated, strict=True):
                 assert recording.mag is not None and recording.moving is not None
@@ -333,14 +336,27 @@ def iron(trials: Trials) -> Iterator[Table]:
                     ):
                         ratio = np.abs(axis_errors(attitude, recording)[:, 2]) / attitude.sigma[:, 2]
                         within[name].append(ratio[part & recording.moving & np.isfinite(ratio)] < 3.0)
+                    for name, of in zip(told, ("causal", "offline"), strict=True):
+                        attitude = given[of]
+                        wrong = np.abs(axis_errors(attitude, recording)[:, 2]) > 3.0 * attitude.sigma[:, 2]
+                        told[name].append(unproven(attitude)[wrong & recording.moving])
+                    flagged.append(unproven(given["causal"])[recording.moving])
             cells = [f"{slashed(np.mean(e, axis=0), 2)}, {max(float(v[0]) for v in e):.1f}" for e in found.values()]
             rows.append([f"{length:g} µT", *cells])
             shares = [100.0 * float(np.mean(np.concatenate(part))) for part in within.values()]
-            times.append([f"{length:g} µT", float(np.median(seconds)), max(seconds), *shares])
+            flags = [100.0 * float(np.mean(rows)) if len(rows) else "-" for rows in map(np.concatenate, told.values())]
+            all_flags = 100.0 * float(np.mean(np.concatenate(flagged)))
+            times.append([f"{length:g} µT", float(np.median(seconds)), max(seconds), *shares, all_flags, *flags])
         title = f"hard iron from the start, in four directions, undisturbed trials {label}"
         yield f"{title}: RMSE, degrees, and largest total", ["", *found], rows
         columns = ["", "median", "longest", *(f"% within 3 sigma about up: {name}" for name in within)]
+        columns += ["% unproven, causal", *(f"% unproven {name}" for name in told)]
         yield f"{title}: s in motion until within 5 degrees of the calibrated, and sigma", columns, times
+
+
+def unproven(attitude: poise.Attitude) -> NDArray[np.bool_]:
+    """Rows that say that iron may turn their heading."""
+    return np.asarray((attitude.flags & np.uint32(HEADING_UNPROVEN)) != 0)
 
 
 def field(trials: Trials) -> Iterator[Table]:

@@ -26,6 +26,7 @@ REMARKS = frozenset(
         "ACC_DOUBTED",
         "CORRECTION_FORCED",
         "HEADING_ARBITRARY",
+        "HEADING_UNPROVEN",
         "START_IN_MOTION",
         "MAG_DISTURBED",
         "INITIALISING",
@@ -214,8 +215,9 @@ def _bits(sensor: str) -> np.uint32:
     bits = 0
     for flag in Flag:
         words = str(flag.name).lower().split("_")
-        own = sensor in words or (sensor == "mag" and flag is Flag.HEADING_ARBITRARY)
-        if own or (flag.name not in REMARKS and not any(other in words for other in others)):
+        of_mag = flag in (Flag.HEADING_ARBITRARY, Flag.HARD_IRON)
+        own = sensor in words or (sensor == "mag" and of_mag)
+        if own or not (flag.name in REMARKS or of_mag or any(other in words for other in others)):
             bits |= int(flag)
     return np.uint32(bits)
 

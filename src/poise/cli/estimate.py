@@ -170,6 +170,7 @@ def _finished(
     """Write the attitude and its picture; the line of the summary."""
     import numpy as np
 
+    from poise.cli.proof import HeadingProof
     from poise.data.flags import why_invalid
     from poise.estimators import judged_by
     from poise.evaluation import evaluate
@@ -183,6 +184,8 @@ def _finished(
 
         tell("drawing", 0.9)
         save_figure(attitude_figure(attitude, recording, errors, title=recording.name), picture)
+    proof = HeadingProof()
+    proof.add(recording, attitude)
     return {
         "file": str(file),
         "output": str(target),
@@ -193,11 +196,12 @@ def _finished(
         "valid": float(attitude.valid.mean()) if len(attitude) else float("nan"),
         "invalid_because": why_invalid(int(np.bitwise_or.reduce(attitude.flags))),
         "heading": attitude.heading_reference,
+        "heading_unproven": proof.unproven,
         "frame": attitude.frame,
         "error_deg": errors.rmse_deg()._asdict() if errors else None,
         "judged_by": judged_by(attitude.provenance.method) if errors else None,
         "learned": attitude.learned,
-        "notes": list(recording.notes),
+        "notes": [*recording.notes, *proof.notes()],
     }
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from poise.cli import corrected
 from poise.cli.options import Reading, Running
+from poise.cli.proof import HeadingProof
 from poise.data.attitude import Attitude
 from poise.data.flags import why_invalid
 from poise.data.recording import Recording
@@ -55,8 +56,8 @@ def estimate(
     chunks = read_chunks(file, ROWS, **reading.as_arguments())
     if not reading.force:
         check_before(reading, chunks)
-    errors, shown = ErrorSums(), Thinned(_SHOWN)
-    accounts: dict[str, Account] = {"errors": errors}
+    errors, shown, proof = ErrorSums(), Thinned(_SHOWN), HeadingProof()
+    accounts: dict[str, Account] = {"errors": errors, "heading": proof}
     if picture:
         accounts["shown"] = shown
     written = estimate_file(
@@ -96,11 +97,12 @@ def estimate(
         "valid": written.valid,
         "invalid_because": why_invalid(written.flags),
         "heading": written.heading_reference,
+        "heading_unproven": proof.unproven,
         "frame": frame,
         "error_deg": judged,
         "judged_by": judged_by(METHODS[running.method].__name__) if judged else None,
         "learned": written.learned,
-        "notes": notes,
+        "notes": notes + proof.notes(),
     }
 
 

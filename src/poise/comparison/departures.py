@@ -27,8 +27,8 @@ _FIELD, _DIP, _FORCE, _FAST = 0.1, 10.0, 0.2, 300.0  # of its strength, °, g RM
 _EARLIER = 15.0  # s before a stretch in which the sensors may have caused it
 _MAINLY = 2.0  # times the other part of the error
 
-_EVENTS = (Flag.RESET, Flag.GAP, Flag.TIME_DISORDER, Flag.LOST, Flag.SILENT)
-_OF_HEADING = (Flag.MAG_MISSING, Flag.HEADING_ARBITRARY)
+_EVENTS = (Flag.RESET, Flag.GAP, Flag.TIME_DISORDER, Flag.LOST, Flag.SILENT, Flag.HARD_IRON)
+_OF_HEADING = (Flag.MAG_MISSING, Flag.HEADING_ARBITRARY, Flag.HEADING_UNPROVEN, Flag.HARD_IRON)
 _OF_INCLINATION = (Flag.ACC_MISSING, Flag.ACC_DOUBTED)
 
 Part = Literal["heading", "inclination", "heading and inclination"]

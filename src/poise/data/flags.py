@@ -38,6 +38,8 @@ class Flag(IntFlag):
     CLOCK_JUMP = 1 << 24
     JITTER = 1 << 25
     UNSETTLED = 1 << 26
+    HARD_IRON = 1 << 27
+    HEADING_UNPROVEN = 1 << 28
 
 
 SENTENCES: dict[Flag, str] = {
@@ -72,13 +74,20 @@ SENTENCES: dict[Flag, str] = {
         "after rotation that was not measured, or with a bias that turned out wrong: "
         "the attitude may be off by more than 6 degrees, and is settling"
     ),
+    Flag.HARD_IRON: (
+        "a hard iron on the sensor was found by the field's length: it is taken off from here on, and the heading, if that "
+        "was far off, jumps"
+    ),
+    Flag.HEADING_UNPROVEN: (
+        "the sensor has not been turned enough to rule out a hard iron that turns the heading: sigma allows for none"
+    ),
     Flag.CORRECTION_FORCED: "the correction stood out from its history: the preset gain was forced",
 }
 
 # An attitude that carries one of these is not to be acted on; everything else is a remark.
 INVALID: int = int(Flag.INITIALISING | Flag.LOST | Flag.SILENT | Flag.UNSETTLED)
-# Bits 28 to 31 never leave the package: a smoother counts its log in them.
-KNOWN: int = (1 << 28) - 1
+# Bits 30 and 31 never leave the package: a smoother counts its log in them.
+KNOWN: int = (1 << 30) - 1
 
 # Kernels see plain integers.
 INITIALISING = int(Flag.INITIALISING)
@@ -108,6 +117,8 @@ MAG_CLIPPED = int(Flag.MAG_CLIPPED)
 CLOCK_JUMP = int(Flag.CLOCK_JUMP)
 JITTER = int(Flag.JITTER)
 UNSETTLED = int(Flag.UNSETTLED)
+HARD_IRON = int(Flag.HARD_IRON)
+HEADING_UNPROVEN = int(Flag.HEADING_UNPROVEN)
 
 
 def why_invalid(flags: int) -> str:

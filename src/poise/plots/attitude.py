@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from poise.data.attitude import Attitude
-from poise.data.flags import HEADING_ARBITRARY, INVALID, REST, Flag, valid
+from poise.data.flags import HEADING_ARBITRARY, HEADING_UNPROVEN, INVALID, REST, Flag, valid
 from poise.data.recording import Recording
 from poise.errors import RecordingError
 from poise.evaluation import Errors, evaluate
@@ -44,10 +44,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-SHADES = _REST_SHADE, _INVALID_SHADE, _FLAG_SHADE = (
+SHADES = _REST_SHADE, _INVALID_SHADE, _FLAG_SHADE, _UNPROVEN_SHADE = (
     ("#7FA6C9", 0.22),
     ("#CC1F1F", 0.35),
     ("#E69F00", 0.9),
+    ("#8A6BBE", 0.6),
 )  # colour, opacity
 _STRIP = 0.045  # of a panel's height, at its foot: flags are many, and shades behind the lines would drown them
 _UNDETERMINED = 80.0  # degrees of pitch past which heading and roll are hardly determined
@@ -185,23 +186,28 @@ def _draw_flags(figure: Figure, axes: Sequence[Axes], time: Floats, flags: NDArr
 
     invalid = ~valid(flags)
     # That a heading is arbitrary stands on its axis; as a flag it only matters where it changes.
-    told = REST | INVALID | (HEADING_ARBITRARY if (flags & np.uint32(HEADING_ARBITRARY)).all() else 0)
+    told = REST | INVALID | HEADING_UNPROVEN
+    told |= HEADING_ARBITRARY if (flags & np.uint32(HEADING_ARBITRARY)).all() else 0
     others = flags & np.uint32(0xFFFFFFFF ^ told)
-    kinds = (
-        ("at rest", ((flags & np.uint32(REST)) != 0) & ~invalid, _REST_SHADE, 1.0),
-        ("not valid", invalid, _INVALID_SHADE, 1.0),
-        (f"flagged: {_flag_names(others)}", others != 0, _FLAG_SHADE, _STRIP),
+    unproven = (
+        flags & np.uint32(HEADING_UNPROVEN)
+    ) != 0  # of long stretches, and only about the heading: its own strip
+    kinds: tuple[tuple[str, NDArray[np.bool_], tuple[str, float], tuple[float, float], Sequence[Axes]], ...] = (
+        ("at rest", ((flags & np.uint32(REST)) != 0) & ~invalid, _REST_SHADE, (0, 1.0), axes),
+        ("not valid", invalid, _INVALID_SHADE, (0, 1.0), axes),
+        (f"flagged: {_flag_names(others)}", others != 0, _FLAG_SHADE, (0, _STRIP), axes),
+        ("heading unproven", unproven, _UNPROVEN_SHADE, (1.0 - _STRIP, _STRIP), axes[:1]),
     )
     patches = []
-    for name, mask, (colour, opacity), height in kinds:
+    for name, mask, (colour, opacity), height, panels in kinds:
         if found := spans(time, mask):
             patches.append(Patch(color=colour, alpha=opacity, lw=0, label=name))
-            for ax in axes:
+            for ax in panels:
                 across = ax.get_xaxis_transform()
-                ax.broken_barh(found, (0, height), transform=across, color=colour, alpha=opacity, lw=0, zorder=0.5)
+                ax.broken_barh(found, height, transform=across, color=colour, alpha=opacity, lw=0, zorder=0.5)
     if patches:
         figure.legend(
-            handles=patches, loc="lower right", ncols=1 if is_narrow(figure) else 3, fontsize=9, labelcolor=INK, **BARE
+            handles=patches, loc="lower right", ncols=1 if is_narrow(figure) else 4, fontsize=9, labelcolor=INK, **BARE
         )
 
 

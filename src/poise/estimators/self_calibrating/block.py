@@ -8,6 +8,7 @@ from __future__ import annotations
 from math import atan2, cos, sqrt
 from typing import TYPE_CHECKING
 
+from poise.estimators.self_calibrating.covariance import correct, correct_one, enter_block, forget, grow, symmetrise
 from poise.estimators.self_calibrating.iron import (
     ANOTHER_WAY,
     NOT_SHOWN,
@@ -28,6 +29,7 @@ from poise.estimators.self_calibrating.model import (
     GOES_ON,
     HEADING_SET,
     IRON,
+    JUST_FOUND,
     MAG_DELAY,
     SCALE,
     SIZE,
@@ -42,18 +44,13 @@ from poise.estimators.self_calibrating.model import (
     Sums,
     X,
     begin_block,
-    correct,
-    correct_one,
-    enter_block,
-    forget,
-    grow,
     put,
     put_sensor,
-    symmetrise,
     three,
     vector,
 )
 from poise.estimators.self_calibrating.recall import begin_memory, remember
+from poise.estimators.self_calibrating.unproven import begin_open, judge_heading
 from poise.estimators.self_calibrating.watch import (
     contradicted,
     doubt_bias,
@@ -132,6 +129,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
             to_iron: Mat3 = (1.0 / s.mags) * s.to_iron
             held = iron_from_before(known.iron, -length, e, to_iron)
             if held == ZERO:
+                begin_open(P, method.least_iron)
                 forget(P, IRON, 3, method.initial_iron**2)
                 put(P, X, IRON, ZERO)
             there: Vec3 = to_iron @ held
@@ -146,6 +144,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         elif dot(e, e) > _ANOTHER**2:
             length, anew, iron = 0.0, True, ZERO
             forget_lengths(P)
+            begin_open(P, method.least_iron)
             forget(P, IRON, 3, method.initial_iron**2)
             put(P, X, IRON, ZERO)
             forget(P, FIELD, 2, 0.25)
@@ -200,7 +199,9 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         if shown.length > 0.0:
             by_block = matrix(exp(vector(P, X, TURN)))  # the attitude has been corrected since
             to_iron = (1.0 / s.mags) * (by_block @ s.to_iron)
-            after, turned = take_iron_over(method, P, shown, by_block @ seen + to_iron @ iron, to_iron, after)
+            after, turned = take_iron_over(
+                method, P, shown, by_block @ seen + to_iron @ iron, to_iron, rate_square, after
+            )
             q, event = exp(turned * UP) * q, ANOTHER_IRON
             forget_watch(P)
     put_sensor(P, after)
@@ -221,6 +222,9 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     enter_block(P, s, event)
     begin_block(P)
     P[SUMS + 1, HEADING_SET] = turned
+    P[SUMS + 1, JUST_FOUND] = 1.0 if event == ANOTHER_IRON else 0.0
+    if after.length > 0.0:  # 11. What iron there may be beside that
+        judge_heading(P, matrix(q).x, after.field.y)
     bias = state.bias + vector(P, X, BIAS)
     return State(q, bias, state.rate, state.mean_gyr, state.mean_acc, state.calm, rested, True, P)
 

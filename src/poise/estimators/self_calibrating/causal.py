@@ -14,10 +14,11 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from poise.data.flags import GYR_CLIPPED, MAG_DISTURBED, RESET, REST, UNSETTLED
+from poise.data.flags import GYR_CLIPPED, HARD_IRON, HEADING_UNPROVEN, MAG_DISTURBED, RESET, REST, UNSETTLED
 from poise.data.learned import Learned
 from poise.data.packet import Output, Sample
 from poise.estimators.self_calibrating.block import closed
+from poise.estimators.self_calibrating.covariance import enter_block, forget
 from poise.estimators.self_calibrating.iron import add_length
 from poise.estimators.self_calibrating.learned import check_start, doubts, iron_from_before, take_over, without_iron
 from poise.estimators.self_calibrating.learned import learned as known_by_now
@@ -31,14 +32,17 @@ from poise.estimators.self_calibrating.model import (
     FIELD,
     HEADING_SET,
     IRON,
+    JUST_FOUND,
     LENGTHS,
     MAG_DELAY,
     NOTHING,
+    OPEN,
     ROWS,
     SCALE,
     SENSOR,
     SUMS,
     TURN,
+    UNPROVEN,
     VELOCITY,
     Floats,
     Sensor,
@@ -46,14 +50,13 @@ from poise.estimators.self_calibrating.model import (
     Sums,
     add_turned,
     begin_block,
-    enter_block,
-    forget,
     put,
     put_sensor,
     put_sums,
     sensor_of,
     sums_of,
 )
+from poise.estimators.self_calibrating.unproven import begin_open
 from poise.estimators.self_calibrating.watch import forget_watch, settled
 from poise.math.compiled import compiled
 from poise.math.matrices import I3, Mat3, matrix, transpose
@@ -155,6 +158,9 @@ class SelfCalibrating(NamedTuple):
         forget(P, MAG_DELAY, 1, self.mag_delay_sigma**2)
         forget(P, ACC_DELAY, 1, self.acc_delay_sigma**2)
         unsure_attitude(self, P)
+        begin_open(P, self.least_iron)
+        if present(sample.mag) and float(P[OPEN, 0]) > 0.0:
+            P[OPEN, UNPROVEN] = 1.0
         none = Mat3(ZERO, ZERO, ZERO)
         put_sensor(P, Sensor(none, ZERO, ZERO, ZERO, self.mag_delay, 0.0, 0.0, _FIRST_SPREAD, _FIRST_WANDER))
         attitude = attitude_of(sample.acc, sample.mag, 0.0)
@@ -258,10 +264,13 @@ class SelfCalibrating(NamedTuple):
             flags |= UNSETTLED
         if not within(sample.gyr, 0.98 * self.gyr_range):
             flags |= GYR_CLIPPED
-        if float(P[SUMS + 1, HEADING_SET]) != 0.0 and float(P[SUMS, 1]) == 0.0:  # the heading was set in this row
-            flags |= RESET
+        if float(P[OPEN, UNPROVEN]) != 0.0:
+            flags |= HEADING_UNPROVEN
+        if float(P[SUMS, 1]) == 0.0:  # a block has ended with this row
+            flags |= RESET if float(P[SUMS + 1, HEADING_SET]) != 0.0 else 0
+            flags |= HARD_IRON if float(P[SUMS + 1, JUST_FOUND]) != 0.0 else 0
         if self.log > 0:  # which entry of the log the row stands behind
-            flags |= (int(P[SENSOR, 22]) & 0xF) << 28
+            flags |= (int(P[SENSOR, 22]) & 0x3) << 30
         return Output(sample.dt, q, state.rate, state.bias, sigma, bias_sigma, flags)
 
     def learned(self, state: State) -> Learned:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from math import atan2, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
+from poise.estimators.self_calibrating.covariance import forget
 from poise.estimators.self_calibrating.model import (
     BEGAN,
     COLUMNS,
@@ -29,13 +30,13 @@ from poise.estimators.self_calibrating.model import (
     Floats,
     Sensor,
     Sums,
-    forget,
     put,
     put_three,
     three,
     vector,
 )
 from poise.estimators.self_calibrating.recall import scale_before
+from poise.estimators.self_calibrating.unproven import ANY, VAGUE, begin_open, narrow, trace
 from poise.math.compiled import compiled
 from poise.math.matrices import I3, Mat3, inverse
 from poise.math.vectors import ZERO, Vec3, dot, norm, unit
@@ -52,7 +53,7 @@ _UNTURNED = 0.05  # lengths: along an axis where the field has moved by no more,
 _ROUNDS = 20  # of the fit at most: they make up for what _UNTURNED keeps it from where the field has turned
 _SURE = 8.0  # sigmas that the iron must be away from none, or from the known one, …
 _OFF = 4.0  # … and from the known one at least: what the filter has begun to learn of it is not to hide it
-_VAGUE = 0.05  # lengths: with a larger sigma it is not taken over
+_SEEMS = 2.0  # sigmas from which on it is a doubt about the heading that something beside the known one may be there
 _CAME = 0.1  # lengths: what the heading was set by must fit that iron; one that came later has not turned it
 ANOTHER_WAY = 0.3  # rad: the heading is set where it is further off than a correction reaches
 _N, _M, _Y, _YM, _YY, _MM = 0, 1, 4, 5, 8, 9  # s of field that count, and the means of m, y = |m|², y m, y², m mᵀ
@@ -131,7 +132,7 @@ def take_lengths(method: SelfCalibrating, P: Floats, s: Sums, length: float) -> 
 
 @compiled
 def shown_by_lengths(method: SelfCalibrating, P: Floats, known: Vec3) -> Shown:
-    """What iron the lengths show, where that is not the *known* one, and its P (eq. 27).
+    """What iron the lengths show, where that is not the *known* one, and its P (eq. 27); what they leave open (eq. 29).
 
     |m|² = 2 mᵀb + |h|² − |b|² is a straight line in m: least squares over _TIME, from the known iron on.
     """
@@ -153,33 +154,37 @@ def shown_by_lengths(method: SelfCalibrating, P: Floats, known: Vec3) -> Shown:
         if dot(step, step) < _UNTURNED * _UNTURNED * square:
             break
     square, off = mean_y - 2.0 * dot(b, mean_m) + dot(b, b), b - known
-    least = method.least_iron**2 * square
-    if square <= 0.0 or 4.0 * dot(off, off) < least or max(dot(off, off), dot(b, b)) < least:
+    if square <= 0.0:
         return NOT_SHOWN
     left = max(float(P[row, _YY]) - mean_y * mean_y - 4.0 * dot(b, c - C @ b), 0.0)  # variance of y about the line
     variance = (0.25 * left * samples / (samples - _FITTED) + _OWN * _OWN * square * square) / samples
+    covariance = variance * inverted
+    unseen: Mat3 = (_UNTURNED * _UNTURNED * square) * inverted  # the share of an axis that nothing is known of
     far, large = dot(off, information @ off), dot(b, information @ b)
+    beside = off / sqrt(square) if far > _SEEMS * _SEEMS * variance else ZERO
+    narrow(P, (1.0 / square) * covariance + (ANY * ANY) * (unseen @ unseen), beside)
+    least = method.least_iron**2 * square
+    if 4.0 * dot(off, off) < least or max(dot(off, off), dot(b, b)) < least:
+        return NOT_SHOWN
     if far < _OFF * _OFF * variance or max(far, large) < _SURE * _SURE * variance:
         return NOT_SHOWN
-    covariance = variance * inverted
-    if covariance.x.x + covariance.y.y + covariance.z.z > _VAGUE * _VAGUE * square:
+    if trace(covariance) > VAGUE * VAGUE * square:
         return NOT_SHOWN
     if abs(norm(vector(P, row, BEGAN) - b) - sqrt(square)) > _CAME * sqrt(square):
         return NOT_SHOWN
-    # Along the share of an axis that nothing is known of, iron as elsewhere.
-    unseen: Mat3 = (_UNTURNED * _UNTURNED * square) * inverted
-    covariance = covariance + (dot(b, b) / 3.0) * (unseen @ unseen)
+    covariance = covariance + (dot(b, b) / 3.0) * (unseen @ unseen)  # iron as elsewhere
     return Shown(b, sqrt(square), covariance, 0.25 * left / (square * square))
 
 
 @compiled
 def take_iron_over(
-    method: SelfCalibrating, P: Floats, shown: Shown, raw: Vec3, to_iron: Mat3, now: Sensor
+    method: SelfCalibrating, P: Floats, shown: Shown, raw: Vec3, to_iron: Mat3, rate_square: float, now: Sensor
 ) -> tuple[Sensor, float]:
     """What is known with the iron *shown*, and by what angle the attitude is to be turned about up (eq. 28).
 
-    *raw* is a block's field with the iron in it, Earth frame and lengths, *to_iron* its mean R₀. What was learned beside a
-    wrong heading does not count: the delay, and what A has become of late.
+    *raw* is a block's field with the iron in it, Earth frame and lengths, *to_iron* its mean R₀, *rate_square* that of the
+    rate, by which a delay that is not known smears the field. What was learned beside a wrong heading does not count: the
+    delay, and what A has become of late.
     """
     per = 1.0 / shown.length
     length, iron = now.length * shown.length, per * shown.iron
@@ -190,7 +195,8 @@ def take_iron_over(
     if turn != 0.0:
         forget(P, TURN + 2, 1, method.initial_heading**2)
     else:
-        P[TURN + 2, TURN + 2] += away * away
+        smeared = rate_square * (method.mag_delay**2 + method.mag_delay_sigma**2)
+        P[TURN + 2, TURN + 2] += away * away + (trace(C) + smeared) / max(e.x * e.x + e.y * e.y, _OWN)
     forget(P, IRON, 3, 0.0)
     put(P, IRON, IRON, C.x)
     put(P, IRON + 1, IRON, C.y)
@@ -200,6 +206,8 @@ def take_iron_over(
     for k in range(SCALE, SCALE + 9):
         forget(P, k, 1, method.initial_scale**2)
     forget_lengths(P)
+    begin_open(P, method.least_iron)
+    narrow(P, C, ZERO)
     P[LENGTHS, FOUND] += 1.0
     field = Vec3(0.0, sqrt(e.x * e.x + e.y * e.y), e.z)
     spread = max(min(now.spread, shown.spread), C.x.x + C.y.y + C.z.z)

@@ -9,6 +9,7 @@ import numpy as np
 
 from poise.data.learned import Learned, named
 from poise.errors import MethodError
+from poise.estimators.self_calibrating.covariance import forget
 from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
     BIAS,
@@ -16,13 +17,16 @@ from poise.estimators.self_calibrating.model import (
     IRON,
     LENGTHS,
     MAG_DELAY,
+    OPEN,
     SCALE,
     SIZE,
+    UNPROVEN,
     Floats,
-    forget,
     put_sensor,
+    put_three,
     sensor_of,
 )
+from poise.estimators.self_calibrating.unproven import VAGUE, left_open, narrow, trace
 from poise.math.compiled import compiled
 from poise.math.matrices import I3, Mat3
 from poise.math.vectors import ZERO, Vec3, norm
@@ -60,7 +64,7 @@ def learned(bias: Vec3, P: Floats) -> Learned:
 
     ``gyr_bias`` (3) and ``gyr_scale`` (3, 3) with ω = (I + A)(gyr − bias); ``field`` (2), north and up, ``hard_iron`` (3,
     body frame) in the magnetometer's unit; ``mag_delay`` and ``acc_delay`` behind the gyroscope. Without a magnetometer
-    nothing is said of one.
+    nothing is said of one. As long as the sensor has not been turned about all axes, the iron is as unsure as that leaves it.
     """
     known, size = sensor_of(P), np.ones(SIZE)
     values: dict[str, Any] = {"gyr_bias": bias, "gyr_scale": known.scale, "acc_delay": known.acc_delay}
@@ -69,8 +73,8 @@ def learned(bias: Vec3, P: Floats) -> Learned:
         values["field"] = known.length * np.array(known.field[1:])
         values["hard_iron"] = known.length * np.array(known.iron)
         values["mag_delay"] = known.mag_delay
-    variance = P[:SIZE, :SIZE].diagonal()
-    sigma = size * np.sqrt(np.maximum(variance, 0.0))
+    P = _with_open_iron(P)
+    sigma = size * np.sqrt(np.maximum(P.diagonal(), 0.0))
     quantities = {}
     for name, value in values.items():
         at = range(IRON - 2, IRON) if name == "field" else _PLACES[name]
@@ -81,6 +85,14 @@ def learned(bias: Vec3, P: Floats) -> Learned:
     covariance = P[np.ix_(at_all, at_all)] * np.outer(size[at_all], size[at_all])
     states = tuple(n for name in _PLACES if name in values for n in named(name, quantities[name]["value"]))
     return Learned(METHOD, quantities, states, 0.5 * (covariance + covariance.T))
+
+
+def _with_open_iron(P: Floats) -> Floats:
+    """The 25 errors' covariance, and in it what iron the motion leaves open where the field's length has told of none."""
+    errors, V = P[:SIZE, :SIZE].copy(), left_open(P)
+    if P[LENGTHS, FOUND] == 0.0 and trace(V) > VAGUE**2:
+        errors[IRON : IRON + 3, IRON : IRON + 3] += np.array(V)
+    return errors
 
 
 def check_start(learned: Learned) -> None:
@@ -134,8 +146,12 @@ def take_over(P: Floats, learned: Learned, expected_iron: float, least_iron: flo
     for name in kept:
         for i in _PLACES[name]:
             P[i, i] += GROWTH[name] ** 2
-    if "hard_iron" in kept and norm(known.iron) < least_iron:  # a larger one is the sensor's own
-        _weigh_iron(P, expected_iron)
+    if "hard_iron" in kept:
+        beside = P[IRON : IRON + 3, IRON : IRON + 3]
+        narrow(P, Mat3(*(Vec3(*map(float, row)) for row in beside)), ZERO)
+        P[OPEN, UNPROVEN] *= float(beside.trace()) > VAGUE**2
+        if norm(known.iron) < least_iron:  # a larger one is the sensor's own
+            _weigh_iron(P, expected_iron)
 
 
 def without_iron(mag: Floats, learned: Learned, least: float) -> Floats:
@@ -169,11 +185,12 @@ def iron_from_before(share: Vec3, length: float, seen: Vec3, to_iron: Mat3) -> V
 
 
 class KnownIron(NamedTuple):
-    """A hard iron in the magnetometer's unit, its sigma per axis, and the length of the field that it was found in."""
+    """A hard iron in the magnetometer's unit, its sigma per axis, the field's length where it was found, what is open."""
 
     iron: Floats
     sigma: float
     length: float
+    beside: Mat3  # lengths²
 
 
 def irons_found(P: Floats) -> int:
@@ -185,7 +202,7 @@ def known_iron(P: Floats) -> KnownIron:
     """The hard iron as it is known by now."""
     known = sensor_of(P)
     sigma = np.sqrt(P[IRON : IRON + 3, IRON : IRON + 3].trace() / 3.0)
-    return KnownIron(known.length * np.array(known.iron), float(known.length * sigma), known.length)
+    return KnownIron(known.length * np.array(known.iron), float(known.length * sigma), known.length, left_open(P))
 
 
 def begin_with_iron(P: Floats, known: KnownIron) -> None:
@@ -193,6 +210,7 @@ def begin_with_iron(P: Floats, known: KnownIron) -> None:
     iron = Vec3(*(float(v) / known.length for v in known.iron))
     put_sensor(P, sensor_of(P)._replace(iron=iron, length=-known.length))
     forget(P, IRON, 3, (known.sigma / known.length) ** 2)
+    put_three(P, OPEN, 0, known.beside)
 
 
 def doubts(before: Learned, after: Learned) -> list[str]:

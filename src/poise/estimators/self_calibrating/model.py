@@ -25,12 +25,15 @@ TURN, BIAS, SCALE, VELOCITY, FIELD, IRON, MAG_DELAY, ACC_DELAY, SIZE = 0, 3, 6, 
 # One table is the memory: P in its first 25 rows, then these. A NamedTuple of as many numbers would be copied at every step.
 H, X, ROOM = 25, 26, 27  # of a correction: what is measured of the errors, their estimate, P h
 TURNED = 28  # three rows: S_A = Σ R[:, i] g_j dt, column 3 i + j
-SUMS, SENSOR, KEPT, LENGTHS, ROWS, COLUMNS = 31, 34, 35, 37, 38, 28  # two rows keep what was known before: recall.py
+SUMS, SENSOR, KEPT, LENGTHS, OPEN = 31, 34, 35, 37, 38  # two rows keep what was known before: recall.py
+ROWS, COLUMNS = 39, 28
 # iron.py keeps, behind the sums of the second row, a block's sums of m (3) and |m|², the turn that the heading was set by, and
 # the m (3) of the last block that was taken. In the row of lengths, behind the means: how often an iron was found, the seconds
 # since they were looked at, the turn (3) since the last block, the m (3) that the heading was set by, the seconds since.
-SUMMED, HEADING_SET, TAKEN = 16, 20, 21
+# unproven.py keeps in OPEN a matrix (9), whether the heading is unproven, and an iron (3).
+SUMMED, HEADING_SET, TAKEN, JUST_FOUND = 16, 20, 21, 24
 FOUND, LOOKED, TURNED_SINCE, BEGAN, ELAPSED = 18, 19, 20, 23, 26
+UNPROVEN, BESIDE = 9, 10
 # Behind that, where a smoother asked for it, one entry a block: P's rows of ε and bias after the corrections, what was
 # injected, what the block added up, and each correction's h and P h. Column 25 of the entry's rows holds single numbers.
 ENTRIES, ENTRY = ROWS, 28
@@ -52,7 +55,7 @@ class State(NamedTuple):
     calm: float  # s that neither rate nor force have strayed from their means
     still: float  # s of that in which the mean rate could be the bias
     begun: bool  # a block has been closed
-    P: Floats  # (38, 28): the errors' covariance and, below it, the rest of the memory: see ROWS
+    P: Floats  # (39, 28): the errors' covariance and, below it, the rest of the memory: see ROWS
 
 
 class Sums(NamedTuple):
@@ -101,168 +104,6 @@ class Noise(NamedTuple):
     velocity: float  # (m/s)²
     field: float  # of a field of length 1
     iron: float
-
-
-@compiled
-def grow(P: Floats, sums: Sums, noise: Noise) -> None:
-    """P ← F P Fᵀ + Q over a block, in place (eq. 9, 10).
-
-    Only the rows of ε and v of F differ from the identity: ε⁺ = ε − S_R δb + S_A δA (eq. 7) and
-    v⁺ = v − [S_f]× ε + S_l δτ_a (eq. 8). Of [S_f]× the column of the heading is left out: the pseudo-velocity is near 0 in
-    every direction, so that a horizontal acceleration says nothing of the heading.
-    """
-    S_R = sums.rotation
-    fx, fy, fz = sums.force
-    lx, ly, lz = sums.force_late
-    for j in range(SIZE):  # rows of v first: they take the old ε
-        x, y, late = P[TURN, j], P[TURN + 1, j], P[ACC_DELAY, j]
-        P[VELOCITY, j] += fz * y + lx * late
-        P[VELOCITY + 1, j] += ly * late - fz * x
-        P[VELOCITY + 2, j] += fy * x - fx * y + lz * late
-    for i in range(3):
-        row = S_R.x if i == 0 else (S_R.y if i == 1 else S_R.z)
-        for j in range(SIZE):
-            P[TURN + i, j] -= row.x * P[BIAS, j] + row.y * P[BIAS + 1, j] + row.z * P[BIAS + 2, j]
-        for k in range(9):
-            weight = P[TURNED + i, k]
-            for j in range(SIZE):
-                P[TURN + i, j] += weight * P[SCALE + k, j]
-    # Then the columns. In a row that is none of the six, symmetry has the result already.
-    for i in range(SIZE):
-        if TURN + 3 <= i < VELOCITY or i >= FIELD:
-            for k in range(3):
-                P[i, TURN + k] = P[TURN + k, i]
-                P[i, VELOCITY + k] = P[VELOCITY + k, i]
-        else:
-            x, y, z, late = P[i, TURN], P[i, TURN + 1], P[i, TURN + 2], P[i, ACC_DELAY]
-            P[i, VELOCITY] += fz * y + lx * late
-            P[i, VELOCITY + 1] += ly * late - fz * x
-            P[i, VELOCITY + 2] += fy * x - fx * y + lz * late
-            bx, by, bz = P[i, BIAS], P[i, BIAS + 1], P[i, BIAS + 2]
-            x -= S_R.x.x * bx + S_R.x.y * by + S_R.x.z * bz
-            y -= S_R.y.x * bx + S_R.y.y * by + S_R.y.z * bz
-            z -= S_R.z.x * bx + S_R.z.y * by + S_R.z.z * bz
-            for k in range(9):
-                x += P[TURNED, k] * P[i, SCALE + k]
-                y += P[TURNED + 1, k] * P[i, SCALE + k]
-                z += P[TURNED + 2, k] * P[i, SCALE + k]
-            P[i, TURN], P[i, TURN + 1], P[i, TURN + 2] = x, y, z
-    for k in range(3):
-        P[TURN + k, TURN + k] += noise.turn
-        P[BIAS + k, BIAS + k] += noise.bias
-        P[VELOCITY + k, VELOCITY + k] += noise.velocity
-        P[IRON + k, IRON + k] += noise.iron
-    P[FIELD, FIELD] += noise.field
-    P[FIELD + 1, FIELD + 1] += noise.field
-
-
-@compiled
-def entry_row(P: Floats) -> int:
-    """Where the present entry of the log begins; the count of finished entries is kept beside the sensor's numbers."""
-    room: int = (P.shape[0] - ENTRIES) // ENTRY
-    return ENTRIES + ENTRY * min(int(P[SENSOR, 22]) - int(P[SENSOR, 23]), room - 1)
-
-
-@compiled
-def enter_correction(P: Floats, residual: float, per_S: float) -> None:
-    """What :func:`correct` is about to do, for the way back."""
-    if P.shape[0] <= ROWS:
-        return
-    at = entry_row(P)
-    n = int(P[at, ONE])
-    if n == MOST:
-        return
-    row = at + CORRECTIONS + 2 * n
-    for j in range(SIZE):
-        P[row, j], P[row + 1, j] = P[H, j], P[ROOM, j]
-    P[row, ONE], P[row + 1, ONE] = residual, per_S
-    P[at, ONE] = n + 1.0
-
-
-@compiled
-def enter_block(P: Floats, s: Sums, event: float) -> None:
-    """A block's entry is complete: P after the corrections, what was injected, what was added up."""
-    if P.shape[0] <= ROWS:
-        return
-    at = entry_row(P)
-    for i in range(6):
-        for j in range(SIZE):
-            P[at + i, j] = P[i, j]
-    for j in range(SIZE):
-        P[at + INJECTED, j] = P[X, j]
-    for i in range(3):
-        for k in range(9):
-            P[at + ADDED + i, k] = P[TURNED + i, k]
-    put_three(P, at + ADDED, 9, s.rotation)
-    put(P, at + ADDED + 1, 9, s.force)
-    put(P, at + ADDED + 2, 9, s.force_late)
-    P[at + 1, ONE] = event
-    P[SENSOR, 22] += 1.0
-    P[entry_row(P), ONE] = 0.0
-
-
-@compiled
-def correct(P: Floats, residual: float, variance: float) -> None:
-    """One measured number: K = P h/(hᵀ P h + R), x ← x + K (residual − hᵀ x), P ← P − K hᵀ P, in place (eq. 12).
-
-    Rows H and X hold h and x; the correction is entered into the log. *residual* is measured − expected at x = 0.
-    """
-    for j in range(SIZE):
-        P[ROOM, j] = 0.0
-    for i in range(SIZE):
-        weight = P[H, i]
-        if weight != 0.0:
-            residual -= weight * P[X, i]
-            for j in range(SIZE):
-                P[ROOM, j] += weight * P[i, j]
-    S = variance
-    for i in range(SIZE):
-        S += P[H, i] * P[ROOM, i]
-    per_S = 1.0 / S
-    enter_correction(P, residual, per_S)
-    for i in range(SIZE):
-        gain = P[ROOM, i] * per_S
-        P[X, i] += gain * residual
-        for j in range(SIZE):
-            P[i, j] -= gain * P[ROOM, j]
-
-
-@compiled
-def correct_one(P: Floats, at: int, residual: float, variance: float) -> None:
-    """:func:`correct` where the number measured is one of the 25."""
-    residual -= P[X, at]
-    for j in range(SIZE):
-        P[ROOM, j] = P[at, j]
-    per_S = 1.0 / (P[ROOM, at] + variance)
-    if P.shape[0] > ROWS:
-        for j in range(SIZE):
-            P[H, j] = 0.0
-        P[H, at] = 1.0
-        enter_correction(P, residual, per_S)
-    for i in range(SIZE):
-        gain = P[ROOM, i] * per_S
-        P[X, i] += gain * residual
-        for j in range(SIZE):
-            P[i, j] -= gain * P[ROOM, j]
-
-
-@compiled
-def forget(P: Floats, first: int, count: int, variance: float) -> None:
-    """Errors *first* … are as uncertain as *variance* says, and unrelated to all others."""
-    for i in range(first, first + count):
-        for j in range(SIZE):
-            P[i, j] = 0.0
-            P[j, i] = 0.0
-        P[i, i] = variance
-
-
-@compiled
-def symmetrise(P: Floats) -> None:
-    """What rounding has put apart."""
-    for i in range(SIZE):
-        for j in range(i):
-            mean = 0.5 * (P[i, j] + P[j, i])
-            P[i, j], P[j, i] = mean, mean
 
 
 @compiled
@@ -359,3 +200,4 @@ def begin_block(P: Floats) -> None:
     put_sums(P, NOTHING)
     for k in range(SUMMED, HEADING_SET + 1):
         P[SUMS + 1, k] = 0.0
+    P[SUMS + 1, JUST_FOUND] = 0.0

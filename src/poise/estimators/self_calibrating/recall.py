@@ -6,17 +6,8 @@ field, the strays of the velocity. Eq. 25 of ``docs/methods/self-calibrating.md`
 
 from __future__ import annotations
 
-from poise.estimators.self_calibrating.model import (
-    KEPT,
-    SCALE,
-    Floats,
-    Sensor,
-    forget,
-    put_sensor,
-    put_three,
-    sensor_of,
-    three,
-)
+from poise.estimators.self_calibrating.covariance import forget
+from poise.estimators.self_calibrating.model import KEPT, SCALE, Floats, Sensor, put_sensor, put_three, sensor_of, three
 from poise.math.compiled import compiled
 from poise.math.matrices import Mat3
 

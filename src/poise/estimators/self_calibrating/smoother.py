@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from math import pi
+from math import cos, pi, sin
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from poise.data.attitude import Attitude
-from poise.data.flags import KNOWN
+from poise.data.flags import HEADING_UNPROVEN, KNOWN
 from poise.data.learned import Learned
 from poise.data.recording import Recording
 from poise.errors import MethodError, RecordingError
@@ -22,13 +22,15 @@ from poise.estimators.self_calibrating.backward import apply, back
 from poise.estimators.self_calibrating.causal import SelfCalibrating
 from poise.estimators.self_calibrating.learned import KnownIron, begin_with_iron, irons_found, known_iron
 from poise.estimators.self_calibrating.model import COLUMNS as WIDTH
-from poise.estimators.self_calibrating.model import ENTRIES, ENTRY, SENSOR, SIZE, Floats
+from poise.estimators.self_calibrating.model import ENTRIES, ENTRY, SENSOR, SIZE, Floats, sensor_of
+from poise.estimators.self_calibrating.unproven import MOST, left_open
 from poise.estimators.wrapping import at_gravity, innermost
+from poise.math import arrays
 from poise.math.vectors import Vec3
 
 _PART = 1024  # rows of a recording at a time: what they log stays near the processor
 _SETTLED = 60.0  # s after which a hard iron that was found is known along all axes that the sensor turns about
-_INDEX = np.uint32(28)  # from this bit of the flags on the log's entries are counted
+_INDEX = np.uint32(30)  # from this bit of the flags on the log's entries are counted
 _KNOWN = np.uint32(KNOWN)  # the flags below it
 
 
@@ -154,7 +156,20 @@ def _both_ways(
             heading -= method.local_field**2
         begun = Vec3(tilt, tilt, heading)
         apply(past.time, way.entry, past.table, way.time, way.corrections, begun, method.declination)
+        _judge_headings(stream.P, past, method.declination)
     return replace(past, provenance=replace(past.provenance, method="SelfCalibrating, smoothed"))
+
+
+def _judge_headings(P: Floats, attitude: Attitude, declination: float) -> None:
+    """Of the rows whose heading was unproven on the way forward, those that the motion has proven since are no longer."""
+    rows = np.flatnonzero(attitude.flags & np.uint32(HEADING_UNPROVEN))
+    magnetic_east = np.array([cos(declination), -sin(declination), 0.0])
+    east = arrays.rotate(arrays.conjugate(attitude.quat[rows]), np.broadcast_to(magnetic_east, (len(rows), 3)))
+    open_square = np.einsum("ij,jk,ik->i", east, np.array(left_open(P)), east)
+    most = (MOST * sensor_of(P).field.y) ** 2
+    once = (open_square <= most).any() or (len(rows) and rows[-1] + 1 < len(attitude))
+    proven = open_square <= (4.0 * most if once else most)  # as on the way forward
+    attitude.flags[rows[proven]] &= ~np.uint32(HEADING_UNPROVEN)
 
 
 class _WayBack:
@@ -173,9 +188,9 @@ class _WayBack:
         self._log = np.empty((likely * ENTRY, WIDTH))  # memory is taken where it is written
 
     def add(self, stream: _Stream, rows: slice, flags: NDArray[np.uint32]) -> None:
-        """Take the entries that *stream* has finished in *rows*, whose *flags* count them modulo 16; one a row at most."""
+        """Take the entries that *stream* has finished in *rows*, whose *flags* count them modulo 4; one a row at most."""
         counted = (flags >> _INDEX).astype(np.int64)
-        finished = np.mod(np.diff(counted, prepend=self._count % 16), 16)
+        finished = np.mod(np.diff(counted, prepend=self._count % 4), 4)
         self.entry[rows] = self._count + np.cumsum(finished)
         times = self._rows[rows][finished > 0]
         end = (self._count - self._first) * ENTRY

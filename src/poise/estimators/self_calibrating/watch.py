@@ -9,19 +9,8 @@ from __future__ import annotations
 from math import atan2, radians, sqrt
 from typing import TYPE_CHECKING
 
-from poise.estimators.self_calibrating.model import (
-    BIAS,
-    KEPT,
-    SUMS,
-    TURN,
-    TURNED,
-    VELOCITY,
-    Floats,
-    Sums,
-    forget,
-    put,
-    vector,
-)
+from poise.estimators.self_calibrating.covariance import forget
+from poise.estimators.self_calibrating.model import BIAS, KEPT, SUMS, TURN, TURNED, VELOCITY, Floats, Sums, put, vector
 from poise.estimators.self_calibrating.recall import recall
 from poise.math.compiled import compiled
 from poise.math.matrices import Mat3
