@@ -20,7 +20,7 @@ def asked_while_silent(name: str, file: Path, seed: int) -> list[Check]:
     for _ in range(ROUNDS):
         at = place(recording, rng, 0.0).start
         stream = Stream(METHODS[name]())
-        stream.update(Packet(*(getattr(recording, s)[at - 600 : at] for s in ("time", "gyr", "acc", "mag"))))
+        stream.update(Packet(*(getattr(recording, s)[max(at - 600, 0) : at] for s in ("time", "gyr", "acc", "mag"))))
         last = float(recording.time[at - 1])
         early += bool(_unknown(stream, last + EARLY))
         late += not _unknown(stream, last + DEADLINE + 1e-6)

@@ -83,12 +83,12 @@ def common(guard: Guard, state: State, sample: Sample) -> bool:
     """Whether nothing has to be looked at: an even step, and samples as they usually are."""
     gyr, acc, mag = state.gyr, state.acc, state.mag
     by_mag = change(mag, sample.mag)
-    if by_mag - by_mag == 0.0:
+    if by_mag - by_mag == 0.0 and sample.mag != ZERO:
         field = usual(mag, sample.mag, by_mag, mag_limits(guard, mag.value)) and state.aligned and state.mag_seen
         field = field and not vertical(state.field)
     else:  # a large enough number may overflow in the square: that is for a closer look
         silent = state.mag_absent + sample.dt > max(guard.mag_loss, 3.0 * mag.every)
-        field = not present(sample.mag) and not (silent and state.mag_seen)
+        field = not _measured(sample.mag) and not (silent and state.mag_seen)
     return (
         state.plain
         and not state.lost
@@ -101,9 +101,15 @@ def common(guard: Guard, state: State, sample: Sample) -> bool:
 
 
 @compiled
+def _measured(field: Vec3) -> bool:
+    """Whether a magnetometer said anything: zeros are no sample, as NaN is none."""
+    return present(field) and field != ZERO
+
+
+@compiled
 def plain(guard: Guard, state: State, sample: Sample) -> Sample:
     """A common row as the method may see it."""
-    dt, field = sample.dt, sample.mag if present(sample.mag) else ABSENT
+    dt, field = sample.dt, sample.mag if _measured(sample.mag) else ABSENT
     return Sample(
         dt, sample.gyr, sample.acc, field, sample.acc_age, sample.mag_age, dt, min(state.mag_absent + dt, guard.gap), 0.0
     )  # fmt: skip
