@@ -311,6 +311,14 @@ def test_from_sensors_leaves_out_what_it_cannot_place() -> None:
     assert not found.has_mag
 
 
+@pytest.mark.parametrize("stamp", [TIME[3], TIME[0], np.nan])
+def test_from_sensors_needs_rising_stamps_of_the_gyroscope_and_names_the_row(stamp: float) -> None:
+    time = TIME.copy()
+    time[4] = stamp
+    with pytest.raises(RecordingError, match=r"in row 4 after .* packet"):
+        Recording.from_sensors((time, GYR), (TIME, ACC))
+
+
 def test_from_sensors_takes_stamps_in_any_order_and_sensors_without_samples() -> None:
     found = Recording.from_sensors((TIME, GYR), (TIME[::-1], ACC[::-1]), ([], []), name="chair")
     np.testing.assert_array_equal(found.acc, ACC)

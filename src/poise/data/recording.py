@@ -102,8 +102,13 @@ class Recording:
         Several that meet in one row are averaged, values and ages alike; what comes after the last row is left out.
         """
         time = _numbers("gyr time", gyr[0])
-        if len(time) and not (np.diff(time) > 0).all():
-            raise RecordingError("gyr time: must rise from row to row where sensors are merged by their stamps")
+        falls = np.flatnonzero(~(np.diff(time) > 0)) + 1
+        if len(falls):
+            row = int(falls[0])
+            raise RecordingError(
+                f"gyr time: must rise from row to row where sensors are merged by their stamps, found {time[row]} s in row {row} "
+                f"after {time[row - 1]} s; rows that came in one packet have to be spread over the time since the one before"
+            )
         merged: dict[str, Any] = {}
         for name, sensor in (("acc", acc), ("mag", mag)):
             if sensor is not None:
