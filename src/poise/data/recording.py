@@ -106,8 +106,8 @@ class Recording:
         if len(falls):
             row = int(falls[0])
             raise RecordingError(
-                f"gyr time: must rise from row to row where sensors are merged by their stamps, found {time[row]} s in row {row} "
-                f"after {time[row - 1]} s; rows that came in one packet have to be spread over the time since the one before"
+                f"gyr time: must rise from row to row where sensors are merged by their stamps, found {time[row]} s in row "
+                f"{row} after {time[row - 1]} s; rows of one packet have to be spread over the time since the one before"
             )
         merged: dict[str, Any] = {}
         for name, sensor in (("acc", acc), ("mag", mag)):
