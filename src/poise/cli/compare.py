@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 from cyclopts import Parameter
 
 from poise.cli import show
-from poise.cli.options import Reading, UsageError, usage
+from poise.cli.options import Reading
 from poise.cli.targets import PICTURES, check_room, distinct, targets
+from poise.cli.words import UsageError, usage
 from poise.errors import FormatError, PoiseError
 
 if TYPE_CHECKING:

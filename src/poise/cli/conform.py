@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 from cyclopts import Parameter
 
 from poise.cli import show
-from poise.cli.options import UsageError, usage
+from poise.cli.words import UsageError, usage
 from poise.errors import FormatError, PoiseError
 
 if TYPE_CHECKING:

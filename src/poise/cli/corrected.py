@@ -10,7 +10,8 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from poise.cli.options import Reading, pairs, usage
+from poise.cli.options import Reading
+from poise.cli.words import pairs, usage
 from poise.errors import PoiseError, RecordingError
 
 if TYPE_CHECKING:

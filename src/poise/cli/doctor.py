@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 from cyclopts import Parameter
 
 from poise.cli import corrected, show
-from poise.cli.options import Reading, UsageError, usage
+from poise.cli.options import Reading
 from poise.cli.targets import PICTURES, check_room, distinct
+from poise.cli.words import UsageError, usage
 from poise.errors import FormatError
 
 if TYPE_CHECKING:
@@ -125,7 +126,7 @@ def _said(reading: Reading, recording: Recording, how: dict[str, str]) -> Readin
     """*reading* with the units that the file does not name, which were taken for SI and found right."""
     from dataclasses import replace
 
-    from poise.cli.options import pairs
+    from poise.cli.words import pairs
 
     units = pairs(reading.units, "--units", "") or {}
     for sensor, unit in (("gyr", "rad/s"), ("acc", "m/s²")):

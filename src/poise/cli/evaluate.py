@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import Parameter
 
 from poise.cli import show
-from poise.cli.options import Reading, Running, UsageError, usage
+from poise.cli.options import Reading, Running
 from poise.cli.targets import check_room
+from poise.cli.words import UsageError, usage
 from poise.errors import FormatError, RecordingError
 
 if TYPE_CHECKING:

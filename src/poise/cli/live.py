@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import Parameter
 
 from poise.cli import show
-from poise.cli.options import Reading, UsageError, method_choices, usage
+from poise.cli.options import Reading
+from poise.cli.words import UsageError, method_choices, usage
 from poise.errors import PoiseError
 
 if TYPE_CHECKING:

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import Parameter
 
 from poise.cli import show
-from poise.cli.options import Reading, Running, UsageError
+from poise.cli.options import Reading, Running
 from poise.cli.targets import PICTURES, targets
+from poise.cli.words import UsageError
 from poise.errors import FormatError
 
 if TYPE_CHECKING:

@@ -84,7 +84,7 @@ def each(
     files: Sequence[Path], work: Callable[[Path, Callable[[str, float], None]], Any]
 ) -> tuple[list[Any], list[dict[str, str]]]:
     """What *work* made of every file that could be used, and what was wrong with the others."""
-    from poise.cli.options import UsageError
+    from poise.cli.words import UsageError
 
     results: list[Any] = []
     refused: list[dict[str, str]] = []

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import Parameter
 
 from poise.cli import show
-from poise.cli.options import UsageError, parsed, usage
+from poise.cli.words import UsageError, parsed, usage
 from poise.errors import PoiseError
 
 if TYPE_CHECKING:

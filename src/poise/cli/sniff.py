@@ -10,7 +10,8 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from poise.cli import show
-from poise.cli.options import Reading, UsageError
+from poise.cli.options import Reading
+from poise.cli.words import UsageError
 
 
 def sniff(

@@ -6,7 +6,7 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from poise.cli.options import usage
+from poise.cli.words import usage
 from poise.errors import FormatError
 
 PICTURES = (".png", ".svg", ".pdf")

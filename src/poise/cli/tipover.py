@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import Parameter
 
 from poise.cli import show
-from poise.cli.options import Reading, Running, UsageError, usage
+from poise.cli.options import Reading, Running
 from poise.cli.targets import PICTURES, distinct, targets
 from poise.cli.watching import Watching
+from poise.cli.words import UsageError, usage
 from poise.errors import FormatError
 
 if TYPE_CHECKING:

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from poise.cli import page, show
-from poise.cli.options import Reading, UsageError, method_choices, usage
+from poise.cli.options import Reading
 from poise.cli.targets import distinct
+from poise.cli.words import UsageError, method_choices, usage
 from poise.errors import PoiseError
 
 if TYPE_CHECKING:

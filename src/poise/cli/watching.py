@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Group, Parameter
 
-from poise.cli.options import pairs, usage
+from poise.cli.words import pairs, usage
 from poise.errors import PoiseError
 
 if TYPE_CHECKING:
