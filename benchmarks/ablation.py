@@ -16,6 +16,7 @@ field         where the local field points, seen from the reference, and the hea
 instant       the attitude given out some milliseconds later or earlier
 tried         the rate by trapezoids; windows of the way back; the length of a block
 iron          a magnetometer that was never calibrated: hard iron from the start
+dock          a start beside a magnet or steel, which then goes
 made          made recordings of an inexpensive sensor, and of one with white noise only
 """
 
@@ -25,6 +26,7 @@ import re
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -305,14 +307,27 @@ CORNERS = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)]) / np.sqrt
 
 
 def iron(trials: Trials) -> Iterator[Table]:
-    runs = RUNS | {"causal, as the doctor advises": as_advised}
+    """Hard iron on the sensor, from the first row to the last."""
+    strengths = (0.0, 5.0, 10.0, 20.0, 40.0, 80.0)
+    cases = {f"{strength:g} µT": (strength, inf) for strength in strengths}
+    yield from beside(trials, "hard iron from the start", cases, RUNS | {"causal, as the doctor advises": as_advised})
+
+
+def dock(trials: Trials) -> Iterator[Table]:
+    """A magnet, or steel, beside the sensor for the first seconds of its rest, which then goes."""
+    cases = {f"{s:g} s, {strength:g} µT": (strength, s) for s in (5.0, 20.0) for strength in (10.0, 20.0, 40.0)}
+    yield from beside(trials, "another field for the first seconds", cases, RUNS)
+
+
+def beside(trials: Trials, what: str, cases: dict[str, tuple[float, float]], runs: dict[str, Run]) -> Iterator[Table]:
+    """What *cases* (µT, s from the start on) in four directions, fixed to the sensor, make of the undisturbed trials."""
     undisturbed = {name: recording for name, recording in trials.items() if "undisturbed" in name}
     for label, moved in (("that turn", False), ("that only move", True)):
         chosen = [recording for name, recording in undisturbed.items() if ("translation" in name) is moved]
         calibrated = [poise.estimate(FLAGSHIP, recording) for recording in chosen]
         rows: list[list[Cell]] = []
         times: list[list[Cell]] = []
-        for length in (0.0, 5.0, 10.0, 20.0, 40.0, 80.0):
+        for case, (strength, lasting) in cases.items():
             found: dict[str, list[Floats]] = {name: [] for name in (*runs, "causal, second half")}
             within: dict[str, list[Floats]] = {"first half": [], "second half": [], "offline": []}
             told: dict[str, list[Floats]] = {"of those outside, causal": [], "offline": []}
@@ -320,10 +335,11 @@ def iron(trials: Trials) -> Iterator[Table]:
             seconds = []
             for recording, other in zip(chosen, calibrated, strict=True):
                 assert recording.mag is not None and recording.moving is not None
-                later = recording.time >= recording.time[0] + 0.5 * recording.duration
-                for corner in CORNERS if length else CORNERS[:1]:
-                    beside = replace(recording, mag=recording.mag + length * corner)
-                    given = {name: run(beside) for name, run in runs.items()}
+                since = recording.time - recording.time[0]
+                later = since >= 0.5 * recording.duration
+                for corner in CORNERS if strength else CORNERS[:1]:
+                    given_to = replace(recording, mag=recording.mag + np.outer(since < lasting, strength * corner))
+                    given = {name: run(given_to) for name, run in runs.items()}
                     for name, attitude in given.items():
                         found[name].append(np.array(poise.evaluate(attitude, recording).rmse_deg()))
                     half = replace(recording, moving=recording.moving & later)
@@ -342,12 +358,12 @@ def iron(trials: Trials) -> Iterator[Table]:
                         told[name].append(unproven(attitude)[wrong & recording.moving])
                     flagged.append(unproven(given["causal"])[recording.moving])
             cells = [f"{slashed(np.mean(e, axis=0), 2)}, {max(float(v[0]) for v in e):.1f}" for e in found.values()]
-            rows.append([f"{length:g} µT", *cells])
+            rows.append([case, *cells])
             shares = [100.0 * float(np.mean(np.concatenate(part))) for part in within.values()]
             flags = [100.0 * float(np.mean(rows)) if len(rows) else "-" for rows in map(np.concatenate, told.values())]
             all_flags = 100.0 * float(np.mean(np.concatenate(flagged)))
-            times.append([f"{length:g} µT", float(np.median(seconds)), max(seconds), *shares, all_flags, *flags])
-        title = f"hard iron from the start, in four directions, undisturbed trials {label}"
+            times.append([case, float(np.median(seconds)), max(seconds), *shares, all_flags, *flags])
+        title = f"{what}, in four directions, undisturbed trials {label}"
         yield f"{title}: RMSE, degrees, and largest total", ["", *found], rows
         columns = ["", "median", "longest", *(f"% within 3 sigma about up: {name}" for name in within)]
         columns += ["% unproven, causal", *(f"% unproven {name}" for name in told)]
@@ -452,8 +468,8 @@ def made(trials: Trials) -> Iterator[Table]:
 
 SECTIONS: dict[str, Callable[[Trials], Iterator[Table]]] = {
     "trials": per_trial, "without": without, "sensitivity": sensitivity, "late": late, "rates": rates, "six": six,
-    "sigma": sigma, "start": start, "lying": lying, "magnet": magnet, "iron": iron, "field": field, "instant": instant,
-    "tried": tried, "made": made,
+    "sigma": sigma, "start": start, "lying": lying, "magnet": magnet, "iron": iron, "dock": dock, "field": field,
+    "instant": instant, "tried": tried, "made": made,
 }  # fmt: skip
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from poise.data.attitude import Attitude
     from poise.data.recording import Recording
 
+_LARGE_IRON = 0.04  # of the field: what is pointed out
 _WORTH_SAYING = 0.9  # a smaller share of valid rows is pointed out
 _WRITABLE = (".parquet", ".csv", ".tum", ".txt", ".bag", ".mcap")
 _ROS = ("bag", "mcap", "ros2")
@@ -120,7 +121,9 @@ def estimate(
                 progress=lambda done: tell("estimating", 0.2 + 0.6 * done / n),
                 learning=learned_every if tables else None,
             )
-            result = _finished(file, recording, attitude.to(frame), outputs[file], format, pictures.get(file), tell)
+            result = _finished(
+                file, recording, attitude.to(frame), outputs[file], format, pictures.get(file), running.offline, tell
+            )
             result["doubts"] = running.doubts(attitude.learned)
             over_time = _draw_or_write(attitude, recording, tables.get(file))
             return result | over_time | _keep(attitude.learned, kept.get(file))
@@ -166,6 +169,7 @@ def _finished(
     target: Path,
     format: _Format | None,
     picture: Path | None,
+    offline: bool,
     tell: Callable[[str, float], None],
 ) -> dict[str, Any]:
     """Write the attitude and its picture; the line of the summary."""
@@ -202,8 +206,26 @@ def _finished(
         "error_deg": errors.rmse_deg()._asdict() if errors else None,
         "judged_by": judged_by(attitude.provenance.method) if errors else None,
         "learned": attitude.learned,
-        "notes": [*recording.notes, *proof.notes()],
+        "notes": [
+            *recording.notes,
+            *proof.notes(offline),
+            *(_iron_from_the_start(attitude.learned) if offline else ()),
+        ],
     }
+
+
+def _iron_from_the_start(learned: Any) -> list[str]:
+    """Of a recording gone over both ways: a hard iron that was known from the first row on, if it is a large one."""
+    import numpy as np
+
+    if not learned or "hard_iron" not in learned:
+        return []
+    iron, field = (float(np.linalg.norm(learned[name]["value"])) for name in ("hard_iron", "field"))
+    if not iron >= _LARGE_IRON * field > 0.0:
+        return []
+    return [
+        f"a hard iron on the sensor of {iron / field:.0%} of the field is taken off from the first row on; --learned tells it"
+    ]
 
 
 def _keep(learned: Any, kept: Path | None) -> dict[str, Any]:

@@ -102,7 +102,7 @@ def estimate(
         "error_deg": judged,
         "judged_by": judged_by(METHODS[running.method].__name__) if judged else None,
         "learned": written.learned,
-        "notes": notes + proof.notes(),
+        "notes": notes + proof.notes(offline=False),
     }
 
 

@@ -40,6 +40,7 @@ class Flag(IntFlag):
     UNSETTLED = 1 << 26
     HARD_IRON = 1 << 27
     HEADING_UNPROVEN = 1 << 28
+    ANOTHER_FIELD = 1 << 29
 
 
 SENTENCES: dict[Flag, str] = {
@@ -79,7 +80,12 @@ SENTENCES: dict[Flag, str] = {
         "was far off, jumps"
     ),
     Flag.HEADING_UNPROVEN: (
-        "the sensor has not been turned enough to rule out a hard iron that turns the heading: sigma allows for none"
+        "the sensor has not been turned enough to rule out that iron on it, or beside it at the start, turns the heading: "
+        "sigma allows for neither"
+    ),
+    Flag.ANOTHER_FIELD: (
+        "the heading was set beside something that turned the field: it is set anew by the field that the sensor has "
+        "turned in since"
     ),
     Flag.CORRECTION_FORCED: "the correction stood out from its history: the preset gain was forced",
 }
@@ -119,6 +125,7 @@ JITTER = int(Flag.JITTER)
 UNSETTLED = int(Flag.UNSETTLED)
 HARD_IRON = int(Flag.HARD_IRON)
 HEADING_UNPROVEN = int(Flag.HEADING_UNPROVEN)
+ANOTHER_FIELD = int(Flag.ANOTHER_FIELD)
 
 
 def why_invalid(flags: int) -> str:

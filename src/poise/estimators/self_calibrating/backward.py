@@ -14,6 +14,7 @@ from poise.estimators.self_calibrating.model import (
     ADDED,
     ANOTHER_BIAS,
     ANOTHER_IRON,
+    ANOTHER_NORTH,
     BIAS,
     CORRECTIONS,
     ENTRY,
@@ -135,10 +136,10 @@ def back(log: Floats, future: Floats, corrections: Floats) -> None:
             if event == ANOTHER_BIAS:
                 for k in range(BIAS, BIAS + 3):
                     forget_future(future, k)
-            if event == ANOTHER_IRON:
+            if event in (ANOTHER_IRON, ANOTHER_NORTH):
                 for k in range(FIELD, MAG_DELAY + 1):
                     forget_future(future, k)
-            if event in (ANOTHER_BIAS, ANOTHER_IRON):  # and of A, which is that of before
+            if event in (ANOTHER_BIAS, ANOTHER_IRON, ANOTHER_NORTH):  # and of A, which is that of before
                 for k in range(SCALE, SCALE + 9):
                     forget_future(future, k)
         else:

@@ -8,29 +8,25 @@ from __future__ import annotations
 from math import atan2, cos, sqrt
 from typing import TYPE_CHECKING
 
+from poise.estimators.self_calibrating.another_field import forget_field, look_at_field
 from poise.estimators.self_calibrating.covariance import correct, correct_one, enter_block, forget, grow, symmetrise
-from poise.estimators.self_calibrating.iron import (
-    ANOTHER_WAY,
-    NOT_SHOWN,
-    add_turn,
-    forget_lengths,
-    shown_by_lengths,
-    take_iron_over,
-    take_lengths,
-)
-from poise.estimators.self_calibrating.learned import iron_from_before
+from poise.estimators.self_calibrating.iron import ANOTHER_WAY, add_turn, forget_lengths
+from poise.estimators.self_calibrating.learned import iron_from_before, of_this_unit
 from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
     ANOTHER_BIAS,
     ANOTHER_IRON,
+    ANOTHER_NORTH,
     BEGUN_ANEW,
     BIAS,
+    CONFIRMED,
     FIELD,
     GOES_ON,
     HEADING_SET,
     IRON,
     JUST_FOUND,
     MAG_DELAY,
+    OPEN,
     SCALE,
     SIZE,
     SUMS,
@@ -50,7 +46,7 @@ from poise.estimators.self_calibrating.model import (
     vector,
 )
 from poise.estimators.self_calibrating.recall import begin_memory, remember
-from poise.estimators.self_calibrating.unproven import begin_open, judge_heading
+from poise.estimators.self_calibrating.unproven import ANY, begin_open, judge_heading
 from poise.estimators.self_calibrating.watch import (
     contradicted,
     doubt_bias,
@@ -128,7 +124,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         if length < 0.0:  # a hard iron from before, in lengths of the field there
             to_iron: Mat3 = (1.0 / s.mags) * s.to_iron
             held = iron_from_before(known.iron, -length, e, to_iron)
-            if held == ZERO:
+            if not of_this_unit(known.iron, -length, e, to_iron):
                 begin_open(P, method.least_iron)
                 forget(P, IRON, 3, method.initial_iron**2)
                 put(P, X, IRON, ZERO)
@@ -145,6 +141,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
             length, anew, iron = 0.0, True, ZERO
             forget_lengths(P)
             begin_open(P, method.least_iron)
+            forget_field(P)
             forget(P, IRON, 3, method.initial_iron**2)
             put(P, X, IRON, ZERO)
             forget(P, FIELD, 2, 0.25)
@@ -194,15 +191,12 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     event = BEGUN_ANEW if anew else GOES_ON
     if not rest:
         add_turn(P, T * still)
-    if s.mags > 0.0 and known.length > 0.0 and not anew and not bias_changed:  # 10. Hard iron that the lengths show
-        shown = shown_by_lengths(method, P, iron) if take_lengths(method, P, s, length) else NOT_SHOWN
-        if shown.length > 0.0:
-            by_block = matrix(exp(vector(P, X, TURN)))  # the attitude has been corrected since
-            to_iron = (1.0 / s.mags) * (by_block @ s.to_iron)
-            after, turned = take_iron_over(
-                method, P, shown, by_block @ seen + to_iron @ iron, to_iron, rate_square, after
-            )
-            q, event = exp(turned * UP) * q, ANOTHER_IRON
+    if s.mags > 0.0 and known.length > 0.0 and not anew and not bias_changed:  # 10. to 12. Iron, and another field
+        by_block = matrix(exp(vector(P, X, TURN)))  # the attitude has been corrected since
+        R: Mat3 = (1.0 / s.mags) * (by_block @ s.to_iron)
+        after, turned, event = look_at_field(method, P, s, by_block @ seen, R, rate_square, iron, after)
+        if event != GOES_ON:
+            q = exp(turned * UP) * q
             forget_watch(P)
     put_sensor(P, after)
     if state.begun:
@@ -213,6 +207,8 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     if bias_changed:  # 9. What was thought to be known of it is not
         doubt_bias(method, P)
         event = ANOTHER_BIAS
+        if P[OPEN, CONFIRMED] == 0.0:  # the frame in which the field was seen has turned
+            forget_field(P)
     rested = state.still
     if rate_is_bias:  # and it rests, however far that is from the bias of before
         rested = state.calm
@@ -222,8 +218,8 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     enter_block(P, s, event)
     begin_block(P)
     P[SUMS + 1, HEADING_SET] = turned
-    P[SUMS + 1, JUST_FOUND] = 1.0 if event == ANOTHER_IRON else 0.0
-    if after.length > 0.0:  # 11. What iron there may be beside that
+    P[SUMS + 1, JUST_FOUND] = event if event in (ANOTHER_IRON, ANOTHER_NORTH) else GOES_ON
+    if after.length > 0.0 and method.least_iron < ANY:  # 11. What iron there may be beside that
         judge_heading(P, matrix(q).x, after.field.y)
     bias = state.bias + vector(P, X, BIAS)
     return State(q, bias, state.rate, state.mean_gyr, state.mean_acc, state.calm, rested, True, P)

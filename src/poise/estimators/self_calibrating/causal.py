@@ -14,9 +14,19 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from poise.data.flags import GYR_CLIPPED, HARD_IRON, HEADING_UNPROVEN, MAG_DISTURBED, RESET, REST, UNSETTLED
+from poise.data.flags import (
+    ANOTHER_FIELD,
+    GYR_CLIPPED,
+    HARD_IRON,
+    HEADING_UNPROVEN,
+    MAG_DISTURBED,
+    RESET,
+    REST,
+    UNSETTLED,
+)
 from poise.data.learned import Learned
 from poise.data.packet import Output, Sample
+from poise.estimators.self_calibrating.another_field import forget_field
 from poise.estimators.self_calibrating.block import closed
 from poise.estimators.self_calibrating.covariance import enter_block, forget
 from poise.estimators.self_calibrating.iron import add_length
@@ -24,6 +34,8 @@ from poise.estimators.self_calibrating.learned import check_start, doubts, iron_
 from poise.estimators.self_calibrating.learned import learned as known_by_now
 from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
+    ANOTHER_IRON,
+    ANOTHER_NORTH,
     BEGAN,
     BEGUN_ANEW,
     BIAS,
@@ -182,6 +194,7 @@ class SelfCalibrating(NamedTuple):
         forget_watch(P)
         put(P, SENSOR, 9, ZERO)
         put(P, LENGTHS, BEGAN, ZERO)
+        forget_field(P)
         attitude = attitude_of(sample.acc, sample.mag - iron, 0.0)
         return State(attitude, state.bias, ZERO, sample.gyr, sample.acc, 0.0, 0.0, state.begun, P)
 
@@ -268,7 +281,8 @@ class SelfCalibrating(NamedTuple):
             flags |= HEADING_UNPROVEN
         if float(P[SUMS, 1]) == 0.0:  # a block has ended with this row
             flags |= RESET if float(P[SUMS + 1, HEADING_SET]) != 0.0 else 0
-            flags |= HARD_IRON if float(P[SUMS + 1, JUST_FOUND]) != 0.0 else 0
+            flags |= HARD_IRON if float(P[SUMS + 1, JUST_FOUND]) == ANOTHER_IRON else 0
+            flags |= ANOTHER_FIELD if float(P[SUMS + 1, JUST_FOUND]) == ANOTHER_NORTH else 0
         if self.log > 0:  # which entry of the log the row stands behind
             flags |= (int(P[SENSOR, 22]) & 0x3) << 30
         return Output(sample.dt, q, state.rate, state.bias, sigma, bias_sigma, flags)

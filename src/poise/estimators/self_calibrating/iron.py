@@ -36,7 +36,7 @@ from poise.estimators.self_calibrating.model import (
     vector,
 )
 from poise.estimators.self_calibrating.recall import scale_before
-from poise.estimators.self_calibrating.unproven import ANY, VAGUE, begin_open, narrow, trace
+from poise.estimators.self_calibrating.unproven import ANY, VAGUE, narrow, trace
 from poise.math.compiled import compiled
 from poise.math.matrices import I3, Mat3, inverse
 from poise.math.vectors import ZERO, Vec3, dot, norm, unit
@@ -56,7 +56,7 @@ _OFF = 4.0  # … and from the known one at least: what the filter has begun to 
 _SEEMS = 2.0  # sigmas from which on it is a doubt about the heading that something beside the known one may be there
 _CAME = 0.1  # lengths: what the heading was set by must fit that iron; one that came later has not turned it
 ANOTHER_WAY = 0.3  # rad: the heading is set where it is further off than a correction reaches
-_N, _M, _Y, _YM, _YY, _MM = 0, 1, 4, 5, 8, 9  # s of field that count, and the means of m, y = |m|², y m, y², m mᵀ
+_N, M, _Y, _YM, _YY, MM = 0, 1, 4, 5, 8, 9  # s of field that count, and the means of m, y = |m|², y m, y², m mᵀ
 
 
 class Shown(NamedTuple):
@@ -97,8 +97,8 @@ def add_turn(P: Floats, turn: Vec3) -> None:
 
 
 @compiled
-def take_lengths(method: SelfCalibrating, P: Floats, s: Sums, length: float) -> bool:
-    """Takes a block's lengths in where the sensor has turned since the last, and says whether to look at what they show.
+def take_lengths(method: SelfCalibrating, P: Floats, s: Sums, length: float) -> float:
+    """Takes a block's lengths in where the sensor has turned since the last, and says what time they stand for (s), or 0.
 
     What moves the field while nothing turns is no iron on the sensor, and a gyroscope that turns while the field stands has
     another bias.
@@ -113,21 +113,26 @@ def take_lengths(method: SelfCalibrating, P: Floats, s: Sums, length: float) -> 
     n = float(P[row, _N])
     moved = m - vector(P, SUMS + 1, TAKEN)
     if n > 0.0 and (dot(since, since) < _TURN * _TURN or dot(moved, moved) < _UNTURNED * _UNTURNED):
-        return False
+        return 0.0
     weight = min(elapsed, method.field_time)
     n = (1.0 - elapsed / (_TIME + elapsed)) * n + weight
     share = weight / n if n > 0.0 else 0.0
-    mean_m, mean_y, mean_ym = vector(P, row, _M), float(P[row, _Y]), vector(P, row, _YM)
-    mean_yy, mean_mm = float(P[row, _YY]), three(P, row, _MM)
+    mean_m, mean_y, mean_ym = vector(P, row, M), float(P[row, _Y]), vector(P, row, _YM)
+    mean_yy, mean_mm = float(P[row, _YY]), three(P, row, MM)
     P[row, _N], P[row, _Y], P[row, _YY] = n, mean_y + share * (y - mean_y), mean_yy + share * (y * y - mean_yy)
-    put(P, row, _M, mean_m + share * (m - mean_m))
+    put(P, row, M, mean_m + share * (m - mean_m))
     put(P, row, _YM, mean_ym + share * (y * m - mean_ym))
-    put_three(P, row, _MM, mean_mm + share * (Mat3(m.x * m, m.y * m, m.z * m) - mean_mm))
+    put_three(P, row, MM, mean_mm + share * (Mat3(m.x * m, m.y * m, m.z * m) - mean_mm))
     put(P, SUMS + 1, TAKEN, m)
     put(P, row, TURNED_SINCE, ZERO)
     P[row, ELAPSED] = 0.0
     P[row, LOOKED] += weight
-    return float(P[row, LOOKED]) >= _EVERY
+    return weight
+
+
+@compiled
+def is_time_to_look(P: Floats) -> bool:
+    return float(P[LENGTHS, LOOKED]) >= _EVERY
 
 
 @compiled
@@ -141,7 +146,7 @@ def shown_by_lengths(method: SelfCalibrating, P: Floats, known: Vec3) -> Shown:
     samples = float(P[row, _N]) / method.field_time  # that stand by themselves
     if samples < _FITTED + 1.0:
         return NOT_SHOWN
-    mean_m, mean_y, mean_mm = vector(P, row, _M), float(P[row, _Y]), three(P, row, _MM)
+    mean_m, mean_y, mean_mm = vector(P, row, M), float(P[row, _Y]), three(P, row, MM)
     C: Mat3 = mean_mm - Mat3(mean_m.x * mean_m, mean_m.y * mean_m, mean_m.z * mean_m)
     c = vector(P, row, _YM) - mean_y * mean_m
     b, square, information, inverted = known, 0.0, C, C
@@ -177,19 +182,18 @@ def shown_by_lengths(method: SelfCalibrating, P: Floats, known: Vec3) -> Shown:
 
 
 @compiled
-def take_iron_over(
-    method: SelfCalibrating, P: Floats, shown: Shown, raw: Vec3, to_iron: Mat3, rate_square: float, now: Sensor
+def set_by_field(
+    method: SelfCalibrating, P: Floats, shown: Shown, seen: Vec3, rate_square: float, now: Sensor
 ) -> tuple[Sensor, float]:
     """What is known with the iron *shown*, and by what angle the attitude is to be turned about up (eq. 28).
 
-    *raw* is a block's field with the iron in it, Earth frame and lengths, *to_iron* its mean R₀, *rate_square* that of the
-    rate, by which a delay that is not known smears the field. What was learned beside a wrong heading does not count: the
-    delay, and what A has become of late.
+    *seen* is the field without that iron, Earth frame, *rate_square* that of the rate while it was seen, by which a delay that
+    is not known smears it. What was learned beside a wrong heading does not count: the delay, and what A has become of late.
     """
     per = 1.0 / shown.length
     length, iron = now.length * shown.length, per * shown.iron
     C: Mat3 = (per * per) * shown.covariance
-    e: Vec3 = unit(raw - to_iron @ shown.iron)
+    e: Vec3 = unit(seen)
     away = atan2(e.x, e.y)
     turn = away if abs(away) > ANOTHER_WAY else 0.0
     if turn != 0.0:
@@ -206,9 +210,6 @@ def take_iron_over(
     for k in range(SCALE, SCALE + 9):
         forget(P, k, 1, method.initial_scale**2)
     forget_lengths(P)
-    begin_open(P, method.least_iron)
-    narrow(P, C, ZERO)
-    P[LENGTHS, FOUND] += 1.0
     field = Vec3(0.0, sqrt(e.x * e.x + e.y * e.y), e.z)
     spread = max(min(now.spread, shown.spread), C.x.x + C.y.y + C.z.z)
     known = Sensor(

@@ -13,6 +13,7 @@ from poise.estimators.self_calibrating.covariance import forget
 from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
     BIAS,
+    BY_FIND,
     FOUND,
     IRON,
     LENGTHS,
@@ -20,13 +21,13 @@ from poise.estimators.self_calibrating.model import (
     OPEN,
     SCALE,
     SIZE,
-    UNPROVEN,
     Floats,
     put_sensor,
     put_three,
     sensor_of,
+    three,
 )
-from poise.estimators.self_calibrating.unproven import VAGUE, left_open, narrow, trace
+from poise.estimators.self_calibrating.unproven import VAGUE, narrow, trace
 from poise.math.compiled import compiled
 from poise.math.matrices import I3, Mat3
 from poise.math.vectors import ZERO, Vec3, norm
@@ -89,8 +90,8 @@ def learned(bias: Vec3, P: Floats) -> Learned:
 
 def _with_open_iron(P: Floats) -> Floats:
     """The 25 errors' covariance, and in it what iron the motion leaves open where the field's length has told of none."""
-    errors, V = P[:SIZE, :SIZE].copy(), left_open(P)
-    if P[LENGTHS, FOUND] == 0.0 and trace(V) > VAGUE**2:
+    errors, V = P[:SIZE, :SIZE].copy(), three(P, OPEN, 0)
+    if P[OPEN, BY_FIND] == 0.0 and trace(V) > VAGUE**2:
         errors[IRON : IRON + 3, IRON : IRON + 3] += np.array(V)
     return errors
 
@@ -149,7 +150,6 @@ def take_over(P: Floats, learned: Learned, expected_iron: float, least_iron: flo
     if "hard_iron" in kept:
         beside = P[IRON : IRON + 3, IRON : IRON + 3]
         narrow(P, Mat3(*(Vec3(*map(float, row)) for row in beside)), ZERO)
-        P[OPEN, UNPROVEN] *= float(beside.trace()) > VAGUE**2
         if norm(known.iron) < least_iron:  # a larger one is the sensor's own
             _weigh_iron(P, expected_iron)
 
@@ -176,12 +176,18 @@ def _weigh_iron(P: Floats, expected: float) -> None:
 
 
 @compiled
-def iron_from_before(share: Vec3, length: float, seen: Vec3, to_iron: Mat3) -> Vec3:
-    """The hard iron, a *share* of a field of that *length*, in its unit, where the field *seen* here is of it: else nothing."""
+def of_this_unit(share: Vec3, length: float, seen: Vec3, to_iron: Mat3) -> bool:
+    """Whether the field *seen* can be in the unit of one of that *length*, which a hard iron is a *share* of."""
     held = length * share
     most, left = norm(held), norm(seen - to_iron @ held)
     can_be = (length - most) / _LIKE < norm(seen) < _LIKE * (length + most)
-    return held if can_be and length / _LIKE < left < _LIKE * length else ZERO
+    return can_be and length / _LIKE < left < _LIKE * length
+
+
+@compiled
+def iron_from_before(share: Vec3, length: float, seen: Vec3, to_iron: Mat3) -> Vec3:
+    """The hard iron in the field's unit where that is of this one: else nothing."""
+    return length * share if of_this_unit(share, length, seen, to_iron) else ZERO
 
 
 class KnownIron(NamedTuple):
@@ -202,7 +208,7 @@ def known_iron(P: Floats) -> KnownIron:
     """The hard iron as it is known by now."""
     known = sensor_of(P)
     sigma = np.sqrt(P[IRON : IRON + 3, IRON : IRON + 3].trace() / 3.0)
-    return KnownIron(known.length * np.array(known.iron), float(known.length * sigma), known.length, left_open(P))
+    return KnownIron(known.length * np.array(known.iron), float(known.length * sigma), known.length, three(P, OPEN, 0))
 
 
 def begin_with_iron(P: Floats, known: KnownIron) -> None:
@@ -226,7 +232,16 @@ def doubts(before: Learned, after: Learned) -> list[str]:
                 unit = before[quantity]["unit"]
                 told.append(f"{name} was {was:.3g} ± {expected:.2g} {unit}, found {found[name]:.3g}")
     lengths = _length(before), _length(after)
-    if min(lengths) > 0.0 and not 1.0 / _LIKE < lengths[0] / lengths[1] < _LIKE:
+    alike = min(lengths) > 0.0 and 1.0 / _LIKE < lengths[0] / lengths[1] < _LIKE
+    if alike and "hard_iron" in before and "hard_iron" in after:
+        was, now = (np.array([of["hard_iron"]["value"], of["hard_iron"]["sigma"]], float) for of in (before, after))
+        expected = np.sqrt(was[1] ** 2 + now[1] ** 2 + (GROWTH["hard_iron"] * lengths[1]) ** 2)
+        for axis in np.flatnonzero(np.abs(now[0] - was[0]) > _DOUBTED * expected):
+            told.append(
+                f"hard_iron_{'xyz'[axis]} was {was[0, axis]:.3g} ± {expected[axis]:.2g} {_UNIT}, found {now[0, axis]:.3g}: "
+                "is it mounted as it was?"
+            )
+    if min(lengths) > 0.0 and not alike:
         told.append(
             f"the field was {lengths[0]:.3g} long, here {lengths[1]:.3g}: another unit? The hard iron was left out"
         )

@@ -30,16 +30,19 @@ ROWS, COLUMNS = 39, 28
 # iron.py keeps, behind the sums of the second row, a block's sums of m (3) and |m|², the turn that the heading was set by, and
 # the m (3) of the last block that was taken. In the row of lengths, behind the means: how often an iron was found, the seconds
 # since they were looked at, the turn (3) since the last block, the m (3) that the heading was set by, the seconds since.
-# unproven.py keeps in OPEN a matrix (9), whether the heading is unproven, and an iron (3).
+# unproven.py keeps in OPEN a matrix (9), whether the heading is unproven, and an iron (3); another_field.py, behind that,
+# means of the field (3) and its square, their seconds, and whether they confirm what the heading was set by; and whether the
+# matrix is that of an iron that was found.
 SUMMED, HEADING_SET, TAKEN, JUST_FOUND = 16, 20, 21, 24
 FOUND, LOOKED, TURNED_SINCE, BEGAN, ELAPSED = 18, 19, 20, 23, 26
-UNPROVEN, BESIDE = 9, 10
+UNPROVEN, BESIDE, MEAN, SQUARE, SEEN, CONFIRMED, BY_FIND = 9, 10, 13, 16, 17, 18, 19
 # Behind that, where a smoother asked for it, one entry a block: P's rows of ε and bias after the corrections, what was
 # injected, what the block added up, and each correction's h and P h. Column 25 of the entry's rows holds single numbers.
 ENTRIES, ENTRY = ROWS, 28
 INJECTED, ADDED, CORRECTIONS, MOST = 6, 7, 10, 9
 ONE = SIZE  # the column of single numbers
-GOES_ON, BEGUN_ANEW, ANOTHER_BIAS, ANOTHER_IRON = 0.0, 1.0, 2.0, 3.0  # what became, after a block, of what was known
+# What became, after a block, of what was known.
+GOES_ON, BEGUN_ANEW, ANOTHER_BIAS, ANOTHER_IRON, ANOTHER_NORTH = 0.0, 1.0, 2.0, 3.0, 4.0
 
 _NONE = Mat3(ZERO, ZERO, ZERO)
 

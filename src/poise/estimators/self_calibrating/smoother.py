@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from poise.data.attitude import Attitude
-from poise.data.flags import HEADING_UNPROVEN, KNOWN
+from poise.data.attitude import QUAT, Attitude
+from poise.data.flags import ANOTHER_FIELD, HEADING_UNPROVEN, KNOWN, LOST, RESET
 from poise.data.learned import Learned
 from poise.data.recording import Recording
 from poise.errors import MethodError, RecordingError
@@ -22,8 +22,8 @@ from poise.estimators.self_calibrating.backward import apply, back
 from poise.estimators.self_calibrating.causal import SelfCalibrating
 from poise.estimators.self_calibrating.learned import KnownIron, begin_with_iron, irons_found, known_iron
 from poise.estimators.self_calibrating.model import COLUMNS as WIDTH
-from poise.estimators.self_calibrating.model import ENTRIES, ENTRY, SENSOR, SIZE, Floats, sensor_of
-from poise.estimators.self_calibrating.unproven import MOST, left_open
+from poise.estimators.self_calibrating.model import CONFIRMED, ENTRIES, ENTRY, OPEN, SENSOR, SIZE, Floats, sensor_of
+from poise.estimators.self_calibrating.unproven import ANY, MOST, left_open
 from poise.estimators.wrapping import at_gravity, innermost
 from poise.math import arrays
 from poise.math.vectors import Vec3
@@ -156,7 +156,9 @@ def _both_ways(
             heading -= method.local_field**2
         begun = Vec3(tilt, tilt, heading)
         apply(past.time, way.entry, past.table, way.time, way.corrections, begun, method.declination)
-        _judge_headings(stream.P, past, method.declination)
+        _turn_what_was_before(past)
+        if method.least_iron < ANY:
+            _judge_headings(stream.P, past, method.declination)
     return replace(past, provenance=replace(past.provenance, method="SelfCalibrating, smoothed"))
 
 
@@ -168,8 +170,24 @@ def _judge_headings(P: Floats, attitude: Attitude, declination: float) -> None:
     open_square = np.einsum("ij,jk,ik->i", east, np.array(left_open(P)), east)
     most = (MOST * sensor_of(P).field.y) ** 2
     once = (open_square <= most).any() or (len(rows) and rows[-1] + 1 < len(attitude))
-    proven = open_square <= (4.0 * most if once else most)  # as on the way forward
+    proven = (open_square <= (4.0 * most if once else most)) & (P[OPEN, CONFIRMED] != 0.0)  # as on the way forward
     attitude.flags[rows[proven]] &= ~np.uint32(HEADING_UNPROVEN)
+
+
+def _turn_what_was_before(attitude: Attitude) -> None:
+    """Where the heading was set by another field than at the start, it was wrong by as much all the time before."""
+    begun = (attitude.flags & np.uint32(RESET | LOST)) != 0
+    there = (attitude.flags & np.uint32(ANOTHER_FIELD)) != 0
+    quat = attitude.table[:, QUAT]
+    for row in np.flatnonzero(there)[::-1]:
+        first = int(np.flatnonzero(np.append(True, (begun & ~there)[1 : row + 1]))[-1])
+        if row == 0 or not np.isfinite(quat[[row - 1, row]]).all():
+            continue
+        since = arrays.rotation_vector(arrays.multiply(quat[row], arrays.conjugate(quat[row - 1])))[2]
+        turned = arrays.rotate(quat[row], attitude.rate[row])[2] * (attitude.time[row] - attitude.time[row - 1])
+        quat[first:row] = arrays.multiply(arrays.turn_about_up(np.array(since - turned)), quat[first:row])
+        attitude.sigma[first:row, 2] = np.minimum(np.hypot(attitude.sigma[first:row, 2], attitude.sigma[row, 2]), pi)
+        attitude.flags[row] &= ~np.uint32(RESET)  # it does not jump any more
 
 
 class _WayBack:

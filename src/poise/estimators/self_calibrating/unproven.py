@@ -6,7 +6,18 @@ and 30 of ``docs/methods/self-calibrating.md``.
 
 from __future__ import annotations
 
-from poise.estimators.self_calibrating.model import BESIDE, OPEN, UNPROVEN, Floats, put, put_three, three, vector
+from poise.estimators.self_calibrating.model import (
+    BESIDE,
+    BY_FIND,
+    CONFIRMED,
+    OPEN,
+    UNPROVEN,
+    Floats,
+    put,
+    put_three,
+    three,
+    vector,
+)
 from poise.math.compiled import compiled
 from poise.math.matrices import I3, Mat3
 from poise.math.vectors import ZERO, Vec3, dot
@@ -23,6 +34,7 @@ def begin_open(P: Floats, at_most: float) -> None:
     any_square = ANY * ANY if at_most < ANY else 0.0
     put_three(P, OPEN, 0, Mat3(Vec3(any_square, 0.0, 0.0), Vec3(0.0, any_square, 0.0), Vec3(0.0, 0.0, any_square)))
     put(P, OPEN, BESIDE, ZERO)
+    P[OPEN, BY_FIND] = 0.0
 
 
 @compiled
@@ -50,13 +62,31 @@ def left_open(P: Floats) -> Mat3:
 
 
 @compiled
+def shrink(P: Floats, length: float) -> None:
+    """In lengths of a field that is as long as *length* of those before."""
+    per = 1.0 / length
+    put_three(P, OPEN, 0, (per * per) * three(P, OPEN, 0))
+    put(P, OPEN, BESIDE, per * vector(P, OPEN, BESIDE))
+
+
+@compiled
+def still_open(P: Floats, up: Vec3, north: float) -> bool:
+    """Whether an iron could turn a heading by much, whatever that is; *up* in the body frame."""
+    V = left_open(P)
+    return trace(V) - dot(up, V @ up) > 2.0 * MOST * MOST * north * north
+
+
+@compiled
 def trace(V: Mat3) -> float:
     return V.x.x + V.y.y + V.z.z
 
 
 @compiled
 def judge_heading(P: Floats, east: Vec3, north: float) -> None:
-    """Whether such an iron could turn the heading; *east* in the body frame, *north* of the field in lengths (eq. 30)."""
+    """Whether iron could turn the heading; *east* in the body frame, *north* of the field in lengths (eq. 30).
+
+    On the sensor, or where the heading was set: until a field in turns has confirmed that.
+    """
     V = left_open(P)
     most = (MOST if P[OPEN, UNPROVEN] != 0.0 else 2.0 * MOST) * north
-    P[OPEN, UNPROVEN] = 1.0 if dot(east, V @ east) > most * most else 0.0
+    P[OPEN, UNPROVEN] = 1.0 if P[OPEN, CONFIRMED] == 0.0 or dot(east, V @ east) > most * most else 0.0

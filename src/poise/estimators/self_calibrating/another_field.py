@@ -1,0 +1,136 @@
+"""Whether the field that the heading was set by is the one that the sensor has turned in since.
+
+A field that was seen at one place at rest may be that of a magnet there: a dock, a table of steel. One that stays the same
+while the sensor turns and moves is of the region. Step 12, eq. 31 and 32 of ``docs/methods/self-calibrating.md``.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import TYPE_CHECKING
+
+from poise.estimators.self_calibrating.iron import (
+    MM,
+    M,
+    Shown,
+    is_time_to_look,
+    set_by_field,
+    shown_by_lengths,
+    take_lengths,
+)
+from poise.estimators.self_calibrating.model import (
+    ANOTHER_IRON,
+    ANOTHER_NORTH,
+    BY_FIND,
+    CONFIRMED,
+    FOUND,
+    GOES_ON,
+    IRON,
+    LENGTHS,
+    MEAN,
+    OPEN,
+    SEEN,
+    SQUARE,
+    Floats,
+    Sensor,
+    Sums,
+    put,
+    three,
+    vector,
+)
+from poise.estimators.self_calibrating.unproven import ANY, begin_open, narrow, shrink, still_open, trace
+from poise.math.compiled import compiled
+from poise.math.matrices import Mat3
+from poise.math.vectors import ZERO, Vec3, dot, norm
+
+if TYPE_CHECKING:
+    from poise.estimators.self_calibrating.causal import SelfCalibrating
+
+_TIME = 60.0  # s of turning that are remembered
+_LEAST = 12.5  # s of it that tell: errors of the field last some seconds
+_ALIKE = 0.1  # lengths: mean fields that differ by less are one
+_LESS = 0.25  # of the mean square that one on the sensor would stray by
+_EVEN = 0.15  # lengths: one that strays by more from its mean, as the sensor turns, is no field of the region
+
+
+@compiled
+def look_at_field(
+    method: SelfCalibrating, P: Floats, s: Sums, seen: Vec3, R: Mat3, rate_square: float, known: Vec3, now: Sensor
+) -> tuple[Sensor, float, float]:
+    """What is known after a block's field, by what angle the attitude is to be turned about up, and what became of all that.
+
+    *seen* is the field without the *known* iron, Earth frame and lengths, *R* the mean R₀.
+    """
+    seconds = take_lengths(method, P, s, now.length) if method.least_iron < ANY else 0.0
+    if seconds == 0.0:
+        return now, 0.0, GOES_ON
+    take_field(P, seen, seconds)
+    if not is_time_to_look(P):
+        return now, 0.0, GOES_ON
+    shown = shown_by_lengths(method, P, known)
+    if shown.length > 0.0:  # 10. Hard iron
+        now, turned = set_by_field(method, P, shown, seen + R @ (known - shown.iron), rate_square, now)
+        begin_open(P, method.least_iron)
+        narrow(P, (1.0 / (shown.length * shown.length)) * shown.covariance, ZERO)
+        P[OPEN, BY_FIND] = 1.0
+        P[LENGTHS, FOUND] += 1.0
+        forget_field(P)
+        return now, turned, ANOTHER_IRON
+    field = another_field(P, now.field)
+    if field == ZERO:
+        return now, 0.0, GOES_ON
+    if still_open(P, R.z, sqrt(field.x * field.x + field.y * field.y)) and not stands(P, field - now.field):
+        return now, 0.0, GOES_ON
+    # 12. Another field than the one that the heading was set by
+    C = Mat3(vector(P, IRON, IRON), vector(P, IRON + 1, IRON), vector(P, IRON + 2, IRON))
+    now, turned = set_by_field(method, P, Shown(known, norm(field), C, spread_of(P)), field, 0.0, now)
+    shrink(P, norm(field))
+    forget_field(P)
+    return now, turned, ANOTHER_NORTH
+
+
+@compiled
+def stands(P: Floats, change: Vec3) -> bool:
+    """Whether a *change* of the field is of the Earth's frame: on the sensor it would stray as that has turned (eq. 32)."""
+    mean, mm = vector(P, LENGTHS, M), three(P, LENGTHS, MM)
+    turned = trace(mm) - dot(mean, mean)
+    return spread_of(P) < _LESS * turned * dot(change, change)
+
+
+@compiled
+def forget_field(P: Floats) -> None:
+    """The heading was set by another field: nothing seen of it yet."""
+    put(P, OPEN, MEAN, ZERO)
+    P[OPEN, SQUARE] = P[OPEN, SEEN] = P[OPEN, CONFIRMED] = 0.0
+
+
+@compiled
+def take_field(P: Floats, field: Vec3, seconds: float) -> None:
+    """A block's field, without the known iron, in the Earth's frame and in lengths; it stands for *seconds* of turning."""
+    n = (1.0 - seconds / (_TIME + seconds)) * float(P[OPEN, SEEN]) + seconds
+    share, mean = seconds / n, vector(P, OPEN, MEAN)
+    put(P, OPEN, MEAN, mean + share * (field - mean))
+    P[OPEN, SQUARE] += share * (dot(field, field) - float(P[OPEN, SQUARE]))
+    P[OPEN, SEEN] = n
+
+
+@compiled
+def another_field(P: Floats, usual: Vec3) -> Vec3:
+    """The mean field where that is even, another than the *usual* one and nothing has confirmed that; else nothing (eq. 31)."""
+    if P[OPEN, CONFIRMED] != 0.0 or P[OPEN, SEEN] < _LEAST:
+        return ZERO
+    mean = vector(P, OPEN, MEAN)
+    off = mean - usual
+    if spread_of(P) > _EVEN * _EVEN * dot(mean, mean):
+        return ZERO
+    if dot(off, off) < _ALIKE * _ALIKE:
+        P[OPEN, CONFIRMED] = 1.0
+        return ZERO
+    return mean
+
+
+@compiled
+def spread_of(P: Floats) -> float:
+    """Mean square of what the field has strayed from its mean, lengths²."""
+    mean = vector(P, OPEN, MEAN)
+    return max(float(P[OPEN, SQUARE]) - dot(mean, mean), 0.0)
