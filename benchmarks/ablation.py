@@ -309,25 +309,29 @@ CORNERS = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)]) / np.sqrt
 def iron(trials: Trials) -> Iterator[Table]:
     """Hard iron on the sensor, from the first row to the last."""
     strengths = (0.0, 5.0, 10.0, 20.0, 40.0, 80.0)
-    cases = {f"{strength:g} µT": (strength, inf) for strength in strengths}
+    cases = {f"{strength:g} µT": (strength, 0.0, inf) for strength in strengths}
     yield from beside(trials, "hard iron from the start", cases, RUNS | {"causal, as the doctor advises": as_advised})
 
 
 def dock(trials: Trials) -> Iterator[Table]:
-    """A magnet, or steel, beside the sensor for the first seconds of its rest, which then goes."""
-    cases = {f"{s:g} s, {strength:g} µT": (strength, s) for s in (5.0, 20.0) for strength in (10.0, 20.0, 40.0)}
+    """A magnet, or steel, beside the sensor for the first seconds of its rest, which then goes; or one that comes then."""
+    cases = {f"{s:g} s, {strength:g} µT": (strength, 0.0, s) for s in (5.0, 20.0) for strength in (10.0, 20.0, 40.0)}
     yield from beside(trials, "another field for the first seconds", cases, RUNS)
+    cases = {f"{strength:g} µT": (strength, 15.0, inf) for strength in (10.0, 20.0, 40.0)}
+    yield from beside(trials, "a magnet attached after 15 s, at rest", cases, RUNS)
 
 
-def beside(trials: Trials, what: str, cases: dict[str, tuple[float, float]], runs: dict[str, Run]) -> Iterator[Table]:
-    """What *cases* (µT, s from the start on) in four directions, fixed to the sensor, make of the undisturbed trials."""
+def beside(
+    trials: Trials, what: str, cases: dict[str, tuple[float, float, float]], runs: dict[str, Run]
+) -> Iterator[Table]:
+    """What *cases* (µT, from and until s) in four directions, fixed to the sensor, make of the undisturbed trials."""
     undisturbed = {name: recording for name, recording in trials.items() if "undisturbed" in name}
     for label, moved in (("that turn", False), ("that only move", True)):
         chosen = [recording for name, recording in undisturbed.items() if ("translation" in name) is moved]
         calibrated = [poise.estimate(FLAGSHIP, recording) for recording in chosen]
         rows: list[list[Cell]] = []
         times: list[list[Cell]] = []
-        for case, (strength, lasting) in cases.items():
+        for case, (strength, first, last) in cases.items():
             found: dict[str, list[Floats]] = {name: [] for name in (*runs, "causal, second half")}
             within: dict[str, list[Floats]] = {"first half": [], "second half": [], "offline": []}
             told: dict[str, list[Floats]] = {"of those outside, causal": [], "offline": []}
@@ -338,7 +342,9 @@ def beside(trials: Trials, what: str, cases: dict[str, tuple[float, float]], run
                 since = recording.time - recording.time[0]
                 later = since >= 0.5 * recording.duration
                 for corner in CORNERS if strength else CORNERS[:1]:
-                    given_to = replace(recording, mag=recording.mag + np.outer(since < lasting, strength * corner))
+                    given_to = replace(
+                        recording, mag=recording.mag + np.outer((since >= first) & (since < last), strength * corner)
+                    )
                     given = {name: run(given_to) for name, run in runs.items()}
                     for name, attitude in given.items():
                         found[name].append(np.array(poise.evaluate(attitude, recording).rmse_deg()))
