@@ -16,7 +16,15 @@ from helpers import angle_between, plain
 from irons import FLAGSHIP, IRON, NEVER, WHITE, calibrated, degrees, second_half, with_iron
 from poise.data.flags import Flag
 from poise.data.packet import Packet
-from poise.estimators.self_calibrating.iron import add_length, add_turn, forget_lengths, shown_by_lengths, take_lengths
+from poise.estimators.self_calibrating.iron import (
+    Shown,
+    add_length,
+    add_turn,
+    fit_of_lengths,
+    forget_lengths,
+    shown_by,
+    take_lengths,
+)
 from poise.estimators.self_calibrating.learned import iron_from_before
 from poise.estimators.self_calibrating.model import COLUMNS, NOTHING, ROWS, begin_block
 from poise.math.matrices import I3
@@ -245,6 +253,11 @@ def memory_of(field: Floats, block: float = 0.1) -> Floats:
     return P
 
 
+def shown_by_lengths(method: poise.SelfCalibrating, P: Floats, known: Vec3) -> Shown:
+    shown: Shown = shown_by(method, P, known, fit_of_lengths(method, P, known))
+    return shown
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_the_fit_is_that_of_a_sphere(seed: int) -> None:
     """Beside scipy's, by distance from the centre, over samples that count the same: few beside what is remembered."""
@@ -280,8 +293,8 @@ def test_what_is_known_is_not_shown_again() -> None:
 def test_kernels_and_the_python_behind_them_agree() -> None:
     field = Rotation.random(300, rng=np.random.default_rng(2)).apply([0.0, 0.4, -0.9]) + np.array([0.3, -0.2, 0.1])
     P = memory_of(field)
-    by_python = plain(shown_by_lengths)(FLAGSHIP, P.copy(), ZERO)
-    by_kernel = shown_by_lengths(FLAGSHIP, P.copy(), ZERO)
+    by_python = plain(fit_of_lengths)(FLAGSHIP, P.copy(), ZERO)
+    by_kernel = fit_of_lengths(FLAGSHIP, P.copy(), ZERO)
     np.testing.assert_allclose(by_python.iron, by_kernel.iron, rtol=1e-9)
     np.testing.assert_allclose(np.array(by_python.covariance), np.array(by_kernel.covariance), rtol=1e-9)
 

@@ -6,16 +6,18 @@ while the sensor turns and moves is of the region. Step 12, eq. 31 and 32 of ``d
 
 from __future__ import annotations
 
-from math import sqrt
 from typing import TYPE_CHECKING
 
 from poise.estimators.self_calibrating.iron import (
-    MM,
-    M,
+    NOT_SHOWN,
+    Fit,
     Shown,
+    fit_of_lengths,
     is_time_to_look,
+    left_by,
+    seems,
     set_by_field,
-    shown_by_lengths,
+    shown_by,
     take_lengths,
 )
 from poise.estimators.self_calibrating.model import (
@@ -35,12 +37,12 @@ from poise.estimators.self_calibrating.model import (
     Sensor,
     Sums,
     put,
-    three,
     vector,
 )
-from poise.estimators.self_calibrating.unproven import ANY, begin_open, narrow, shrink, still_open, trace
+from poise.estimators.self_calibrating.turns import add_to_turns, fit_of_turns, forget_turns
+from poise.estimators.self_calibrating.unproven import ANY, MOST, begin_open, narrow, shrink, trace
 from poise.math.compiled import compiled
-from poise.math.matrices import Mat3
+from poise.math.matrices import I3, Mat3
 from poise.math.vectors import ZERO, Vec3, dot, norm
 
 if TYPE_CHECKING:
@@ -49,7 +51,7 @@ if TYPE_CHECKING:
 _TIME = 60.0  # s of turning that are remembered
 _LEAST = 12.5  # s of it that tell: errors of the field last some seconds
 _ALIKE = 0.1  # lengths: mean fields that differ by less are one
-_LESS = 0.25  # of the mean square that one on the sensor would stray by
+_FAR = 4.0  # sigmas
 _EVEN = 0.15  # lengths: one that strays by more from its mean, as the sensor turns, is no field of the region
 
 
@@ -64,10 +66,17 @@ def look_at_field(
     seconds = take_lengths(method, P, s, now.length) if method.least_iron < ANY else 0.0
     if seconds == 0.0:
         return now, 0.0, GOES_ON
-    take_field(P, seen, seconds)
+    take_field(P, seen, R, seconds)
     if not is_time_to_look(P):
         return now, 0.0, GOES_ON
-    shown = shown_by_lengths(method, P, known)
+    by_lengths, by_turns = fit_of_lengths(method, P, known), fit_of_turns(method, P, known)
+    rules = better(by_lengths, by_turns)
+    V, beside = left_by(rules), seems(rules, known)
+    if rules.length > 0.0:
+        narrow(P, V, beside)
+    shown = shown_by(method, P, known, by_lengths) if by_lengths.length > 0.0 else NOT_SHOWN
+    if shown.length == 0.0 and by_turns.length > 0.0:
+        shown = shown_by(method, P, known, by_turns)
     if shown.length > 0.0:  # 10. Hard iron
         now, turned = set_by_field(method, P, shown, seen + R @ (known - shown.iron), rate_square, now)
         begin_open(P, method.least_iron)
@@ -79,7 +88,7 @@ def look_at_field(
     field = another_field(P, now.field)
     if field == ZERO:
         return now, 0.0, GOES_ON
-    if still_open(P, R.z, sqrt(field.x * field.x + field.y * field.y)) and not stands(P, field - now.field):
+    if rules.length == 0.0 or may_be_on_sensor(V + dot(beside, beside) * I3, R.z, field, now.field):
         return now, 0.0, GOES_ON
     # 12. Another field than the one that the heading was set by
     C = Mat3(vector(P, IRON, IRON), vector(P, IRON + 1, IRON), vector(P, IRON + 2, IRON))
@@ -90,11 +99,24 @@ def look_at_field(
 
 
 @compiled
-def stands(P: Floats, change: Vec3) -> bool:
-    """Whether a *change* of the field is of the Earth's frame: on the sensor it would stray as that has turned (eq. 32)."""
-    mean, mm = vector(P, LENGTHS, M), three(P, LENGTHS, MM)
-    turned = trace(mm) - dot(mean, mean)
-    return spread_of(P) < _LESS * turned * dot(change, change)
+def better(one: Fit, other: Fit) -> Fit:
+    """Of two fits the one that leaves less open."""
+    if one.length == 0.0 or other.length == 0.0:
+        return other if one.length == 0.0 else one
+    return one if trace(left_by(one)) < trace(left_by(other)) else other
+
+
+@compiled
+def may_be_on_sensor(V: Mat3, up: Vec3, field: Vec3, usual: Vec3) -> bool:
+    """Whether iron that came to the sensor may be what makes the *field* another than the *usual* one (eq. 32).
+
+    Not where what this look leaves open of that, V, could turn no heading, or is far less than the change; *up* in the body
+    frame.
+    """
+    change = field - usual
+    across = trace(V) - dot(up, V @ up)
+    north = field.x * field.x + field.y * field.y
+    return across > max(2.0 * MOST * MOST * north, dot(change, change) / (_FAR * _FAR))
 
 
 @compiled
@@ -102,16 +124,18 @@ def forget_field(P: Floats) -> None:
     """The heading was set by another field: nothing seen of it yet."""
     put(P, OPEN, MEAN, ZERO)
     P[OPEN, SQUARE] = P[OPEN, SEEN] = P[OPEN, CONFIRMED] = 0.0
+    forget_turns(P)
 
 
 @compiled
-def take_field(P: Floats, field: Vec3, seconds: float) -> None:
-    """A block's field, without the known iron, in the Earth's frame and in lengths; it stands for *seconds* of turning."""
+def take_field(P: Floats, field: Vec3, R: Mat3, seconds: float) -> None:
+    """A block's *field*, without the known iron, in the Earth's frame and in lengths; it stands for *seconds* of turning."""
     n = (1.0 - seconds / (_TIME + seconds)) * float(P[OPEN, SEEN]) + seconds
     share, mean = seconds / n, vector(P, OPEN, MEAN)
     put(P, OPEN, MEAN, mean + share * (field - mean))
     P[OPEN, SQUARE] += share * (dot(field, field) - float(P[OPEN, SQUARE]))
     P[OPEN, SEEN] = n
+    add_to_turns(P, R, field, share)
 
 
 @compiled
@@ -123,7 +147,7 @@ def another_field(P: Floats, usual: Vec3) -> Vec3:
     off = mean - usual
     if spread_of(P) > _EVEN * _EVEN * dot(mean, mean):
         return ZERO
-    if dot(off, off) < _ALIKE * _ALIKE:
+    if dot(off, off) < _ALIKE * _ALIKE and abs(mean.x) < MOST * mean.y:
         P[OPEN, CONFIRMED] = 1.0
         return ZERO
     return mean

@@ -36,7 +36,7 @@ from poise.estimators.self_calibrating.model import (
     vector,
 )
 from poise.estimators.self_calibrating.recall import scale_before
-from poise.estimators.self_calibrating.unproven import ANY, VAGUE, narrow, trace
+from poise.estimators.self_calibrating.unproven import ANY, VAGUE, trace
 from poise.math.compiled import compiled
 from poise.math.matrices import I3, Mat3, inverse
 from poise.math.vectors import ZERO, Vec3, dot, norm, unit
@@ -48,7 +48,7 @@ _TIME = 60.0  # s that are remembered: enough to turn about all axes, short enou
 _TURN = 0.1  # rad: another direction of the field
 _EVERY = 1.0  # s of field from one look at what they show to the next
 _FITTED = 4.0  # numbers that the line has: as many samples fit any
-_OWN = 0.005  # lengths that the magnetometer is off by, however well the lengths agree: its soft iron
+OWN = 0.005  # lengths that the magnetometer is off by, however well the lengths agree: its soft iron
 _UNTURNED = 0.05  # lengths: along an axis where the field has moved by no more, any iron explains its noise
 _ROUNDS = 20  # of the fit at most: they make up for what _UNTURNED keeps it from where the field has turned
 _SURE = 8.0  # sigmas that the iron must be away from none, or from the known one, …
@@ -60,7 +60,7 @@ _N, M, _Y, _YM, _YY, MM = 0, 1, 4, 5, 8, 9  # s of field that count, and the mea
 
 
 class Shown(NamedTuple):
-    """The hard iron that the lengths show, in lengths of the field as it was known."""
+    """A hard iron that is to be taken over, in lengths of the field as it was known."""
 
     iron: Vec3
     length: float  # of the field without it; 0 where no other iron is shown than the known one
@@ -68,6 +68,19 @@ class Shown(NamedTuple):
     spread: float  # mean square of what the length is off by, in lengths of that
 
 
+class Fit(NamedTuple):
+    """What a least-squares fit says of the iron, in lengths of the field as it was known; of length 0 where it says nothing."""
+
+    iron: Vec3
+    length: float  # of the field without it
+    information: Mat3  # of the iron, times *variance*
+    variance: float
+    covariance: Mat3  # its inverse: of the iron
+    unseen: Mat3  # the share of an axis that nothing is known of
+    spread: float  # mean square of what is left, in lengths of that
+
+
+NO_FIT = Fit(ZERO, 0.0, Mat3(ZERO, ZERO, ZERO), 0.0, Mat3(ZERO, ZERO, ZERO), Mat3(ZERO, ZERO, ZERO), 0.0)
 NOT_SHOWN = Shown(ZERO, 0.0, Mat3(ZERO, ZERO, ZERO), 0.0)
 
 
@@ -132,20 +145,23 @@ def take_lengths(method: SelfCalibrating, P: Floats, s: Sums, length: float) -> 
 
 @compiled
 def is_time_to_look(P: Floats) -> bool:
-    return float(P[LENGTHS, LOOKED]) >= _EVERY
+    """Whether a second of turning has passed since the last look; if so, it is begun anew."""
+    due = float(P[LENGTHS, LOOKED]) >= _EVERY
+    if due:
+        P[LENGTHS, LOOKED] = 0.0
+    return due
 
 
 @compiled
-def shown_by_lengths(method: SelfCalibrating, P: Floats, known: Vec3) -> Shown:
-    """What iron the lengths show, where that is not the *known* one, and its P (eq. 27); what they leave open (eq. 29).
+def fit_of_lengths(method: SelfCalibrating, P: Floats, known: Vec3) -> Fit:
+    """What iron the lengths show, from the *known* one on (eq. 27).
 
-    |m|² = 2 mᵀb + |h|² − |b|² is a straight line in m: least squares over _TIME, from the known iron on.
+    |m|² = 2 mᵀb + |h|² − |b|² is a straight line in m: least squares over _TIME.
     """
     row = LENGTHS
-    P[row, LOOKED] = 0.0
     samples = float(P[row, _N]) / method.field_time  # that stand by themselves
     if samples < _FITTED + 1.0:
-        return NOT_SHOWN
+        return NO_FIT
     mean_m, mean_y, mean_mm = vector(P, row, M), float(P[row, _Y]), three(P, row, MM)
     C: Mat3 = mean_mm - Mat3(mean_m.x * mean_m, mean_m.y * mean_m, mean_m.z * mean_m)
     c = vector(P, row, _YM) - mean_y * mean_m
@@ -158,27 +174,51 @@ def shown_by_lengths(method: SelfCalibrating, P: Floats, known: Vec3) -> Shown:
         b = b + step
         if dot(step, step) < _UNTURNED * _UNTURNED * square:
             break
-    square, off = mean_y - 2.0 * dot(b, mean_m) + dot(b, b), b - known
+    square = mean_y - 2.0 * dot(b, mean_m) + dot(b, b)
     if square <= 0.0:
-        return NOT_SHOWN
+        return NO_FIT
     left = max(float(P[row, _YY]) - mean_y * mean_y - 4.0 * dot(b, c - C @ b), 0.0)  # variance of y about the line
-    variance = (0.25 * left * samples / (samples - _FITTED) + _OWN * _OWN * square * square) / samples
-    covariance = variance * inverted
-    unseen: Mat3 = (_UNTURNED * _UNTURNED * square) * inverted  # the share of an axis that nothing is known of
-    far, large = dot(off, information @ off), dot(b, information @ b)
-    beside = off / sqrt(square) if far > _SEEMS * _SEEMS * variance else ZERO
-    narrow(P, (1.0 / square) * covariance + (ANY * ANY) * (unseen @ unseen), beside)
+    variance = (0.25 * left * samples / (samples - _FITTED) + OWN * OWN * square * square) / samples
+    unseen: Mat3 = (_UNTURNED * _UNTURNED * square) * inverted
+    return Fit(b, sqrt(square), information, variance, variance * inverted, unseen, 0.25 * left / (square * square))
+
+
+@compiled
+def seems(fit: Fit, known: Vec3) -> Vec3:
+    """What a *fit* says beside the *known* iron, in lengths, where that is more than chance."""
+    off = fit.iron - known
+    return (
+        off / fit.length
+        if fit.length > 0.0 and dot(off, fit.information @ off) > _SEEMS * _SEEMS * fit.variance
+        else ZERO
+    )
+
+
+@compiled
+def left_by(fit: Fit) -> Mat3:
+    """V: mean square of the iron that there may be beside what the *fit* says, lengths²."""
+    per = 1.0 / fit.length if fit.length > 0.0 else 0.0
+    V: Mat3 = (per * per) * fit.covariance + (ANY * ANY) * (fit.unseen @ fit.unseen)
+    return V
+
+
+@compiled
+def shown_by(method: SelfCalibrating, P: Floats, known: Vec3, fit: Fit) -> Shown:
+    """The iron of a *fit* where it is sure, another than the *known* one, and was there when the heading was set."""
+    b, off = fit.iron, fit.iron - known
+    square, variance = fit.length * fit.length, fit.variance
     least = method.least_iron**2 * square
     if 4.0 * dot(off, off) < least or max(dot(off, off), dot(b, b)) < least:
         return NOT_SHOWN
+    far, large = dot(off, fit.information @ off), dot(b, fit.information @ b)
     if far < _OFF * _OFF * variance or max(far, large) < _SURE * _SURE * variance:
         return NOT_SHOWN
-    if trace(covariance) > VAGUE * VAGUE * square:
+    if trace(fit.covariance) > VAGUE * VAGUE * square:
         return NOT_SHOWN
-    if abs(norm(vector(P, row, BEGAN) - b) - sqrt(square)) > _CAME * sqrt(square):
+    if abs(norm(vector(P, LENGTHS, BEGAN) - b) - fit.length) > _CAME * fit.length:
         return NOT_SHOWN
-    covariance = covariance + (dot(b, b) / 3.0) * (unseen @ unseen)  # iron as elsewhere
-    return Shown(b, sqrt(square), covariance, 0.25 * left / (square * square))
+    unknown: Mat3 = (dot(b, b) / 3.0) * (fit.unseen @ fit.unseen)  # iron as elsewhere
+    return Shown(b, fit.length, fit.covariance + unknown, fit.spread)
 
 
 @compiled
@@ -200,7 +240,7 @@ def set_by_field(
         forget(P, TURN + 2, 1, method.initial_heading**2)
     else:
         smeared = rate_square * (method.mag_delay**2 + method.mag_delay_sigma**2)
-        P[TURN + 2, TURN + 2] += away * away + (trace(C) + smeared) / max(e.x * e.x + e.y * e.y, _OWN)
+        P[TURN + 2, TURN + 2] += away * away + (trace(C) + smeared) / max(e.x * e.x + e.y * e.y, OWN)
     forget(P, IRON, 3, 0.0)
     put(P, IRON, IRON, C.x)
     put(P, IRON + 1, IRON, C.y)

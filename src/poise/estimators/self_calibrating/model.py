@@ -25,8 +25,8 @@ TURN, BIAS, SCALE, VELOCITY, FIELD, IRON, MAG_DELAY, ACC_DELAY, SIZE = 0, 3, 6, 
 # One table is the memory: P in its first 25 rows, then these. A NamedTuple of as many numbers would be copied at every step.
 H, X, ROOM = 25, 26, 27  # of a correction: what is measured of the errors, their estimate, P h
 TURNED = 28  # three rows: S_A = Σ R[:, i] g_j dt, column 3 i + j
-SUMS, SENSOR, KEPT, LENGTHS, OPEN = 31, 34, 35, 37, 38  # two rows keep what was known before: recall.py
-ROWS, COLUMNS = 39, 28
+SUMS, SENSOR, KEPT, LENGTHS, OPEN, TURNS = 31, 34, 35, 37, 38, 39  # two rows keep what was known before: recall.py
+ROWS, COLUMNS = 40, 28
 # iron.py keeps, behind the sums of the second row, a block's sums of m (3) and |m|², the turn that the heading was set by, and
 # the m (3) of the last block that was taken. In the row of lengths, behind the means: how often an iron was found, the seconds
 # since they were looked at, the turn (3) since the last block, the m (3) that the heading was set by, the seconds since.
@@ -58,7 +58,7 @@ class State(NamedTuple):
     calm: float  # s that neither rate nor force have strayed from their means
     still: float  # s of that in which the mean rate could be the bias
     begun: bool  # a block has been closed
-    P: Floats  # (39, 28): the errors' covariance and, below it, the rest of the memory: see ROWS
+    P: Floats  # (40, 28): the errors' covariance and, below it, the rest of the memory: see ROWS
 
 
 class Sums(NamedTuple):

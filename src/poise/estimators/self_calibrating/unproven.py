@@ -70,13 +70,6 @@ def shrink(P: Floats, length: float) -> None:
 
 
 @compiled
-def still_open(P: Floats, up: Vec3, north: float) -> bool:
-    """Whether an iron could turn a heading by much, whatever that is; *up* in the body frame."""
-    V = left_open(P)
-    return trace(V) - dot(up, V @ up) > 2.0 * MOST * MOST * north * north
-
-
-@compiled
 def trace(V: Mat3) -> float:
     return V.x.x + V.y.y + V.z.z
 

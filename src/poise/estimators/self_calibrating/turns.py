@@ -1,0 +1,75 @@
+"""Whether the field goes with the sensor's turns: what does is iron on it.
+
+The gyroscope knows how the sensor has turned, whatever its heading is; in a frame that does not turn, the field stands, and
+iron on the sensor goes around. Small turns tell that, which leave the field's length as it was. Step 10, eq. 33 of
+``docs/methods/self-calibrating.md``.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import TYPE_CHECKING
+
+from poise.estimators.self_calibrating.iron import NO_FIT, OWN, Fit
+from poise.estimators.self_calibrating.model import (
+    MEAN,
+    OPEN,
+    SEEN,
+    SQUARE,
+    TURNS,
+    Floats,
+    put,
+    put_three,
+    three,
+    vector,
+)
+from poise.math.compiled import compiled
+from poise.math.matrices import I3, Mat3, inverse, transpose
+from poise.math.vectors import Vec3, dot
+
+if TYPE_CHECKING:
+    from poise.estimators.self_calibrating.causal import SelfCalibrating
+
+_FITTED = 2.0  # numbers of each axis that the fit has, of the field's and the iron's six
+_UNTURNED = 0.02  # rad: along an axis that has turned by no more, any iron explains the field
+_R, _RR, _RF = 0, 9, 18  # the means of R, RᵀR, Rᵀf
+
+
+@compiled
+def add_to_turns(P: Floats, R: Mat3, field: Vec3, share: float) -> None:
+    """A block's mean R, and its *field* f in the Earth's frame, as a *share* of the means."""
+    Rt = transpose(R)
+    R_before, RR_before, RF_before = three(P, TURNS, _R), three(P, TURNS, _RR), vector(P, TURNS, _RF)
+    put_three(P, TURNS, _R, R_before + share * (R - R_before))
+    put_three(P, TURNS, _RR, RR_before + share * (Rt @ R - RR_before))
+    put(P, TURNS, _RF, RF_before + share * (Rt @ field - RF_before))
+
+
+@compiled
+def forget_turns(P: Floats) -> None:
+    """None seen yet."""
+    for k in range(_RF + 3):
+        P[TURNS, k] = 0.0
+
+
+@compiled
+def fit_of_turns(method: SelfCalibrating, P: Floats, known: Vec3) -> Fit:
+    """What iron the turns show, beside the *known* one: f = c + R b, least squares (eq. 33)."""
+    samples = float(P[OPEN, SEEN]) / method.field_time  # that stand by themselves
+    if samples < 2.0 * _FITTED + 1.0:
+        return NO_FIT
+    R, mean = three(P, TURNS, _R), vector(P, OPEN, MEAN)
+    Rt = transpose(R)
+    G: Mat3 = three(P, TURNS, _RR) - Rt @ R
+    s: Vec3 = vector(P, TURNS, _RF) - Rt @ mean
+    information: Mat3 = G + (_UNTURNED * _UNTURNED) * I3
+    inverted = inverse(information)
+    off: Vec3 = inverted @ s
+    left = max(float(P[OPEN, SQUARE]) - dot(mean, mean) - 2.0 * dot(off, s) + dot(off, G @ off), 0.0) / 3.0
+    field: Vec3 = mean - R @ off
+    square = dot(field, field)
+    if square <= 0.0:
+        return NO_FIT
+    variance = (left * samples / (samples - _FITTED) + OWN * OWN * square) / samples
+    unseen: Mat3 = (_UNTURNED * _UNTURNED) * inverted
+    return Fit(known + off, sqrt(square), information, variance, variance * inverted, unseen, left / square)
