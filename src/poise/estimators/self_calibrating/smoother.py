@@ -158,11 +158,11 @@ def _both_ways(
         apply(past.time, way.entry, past.table, way.time, way.corrections, begun, method.declination)
         _turn_what_was_before(past)
         if method.least_iron < ANY:
-            _judge_headings(stream.P, past, method.declination)
+            judge_headings(stream.P, past, method.declination)
     return replace(past, provenance=replace(past.provenance, method="SelfCalibrating, smoothed"))
 
 
-def _judge_headings(P: Floats, attitude: Attitude, declination: float) -> None:
+def judge_headings(P: Floats, attitude: Attitude, declination: float) -> None:
     """Of the rows whose heading was unproven on the way forward, those that the motion has proven since are no longer."""
     rows = np.flatnonzero(attitude.flags & np.uint32(HEADING_UNPROVEN))
     magnetic_east = np.array([cos(declination), -sin(declination), 0.0])
