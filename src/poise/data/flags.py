@@ -76,8 +76,8 @@ SENTENCES: dict[Flag, str] = {
         "the attitude may be off by more than 6 degrees, and is settling"
     ),
     Flag.HARD_IRON: (
-        "a hard iron on the sensor was found by the field's length: it is taken off from here on, and the heading, if that "
-        "was far off, jumps"
+        "a hard iron on the sensor was found by how the field goes with its turns: it is taken off from here on, and the "
+        "heading, if that was far off, jumps"
     ),
     Flag.HEADING_UNPROVEN: (
         "the sensor has not been turned enough to rule out that iron on it, or beside it at the start, turns the heading: "

@@ -21,6 +21,7 @@ from poise.estimators.self_calibrating.iron import (
     take_lengths,
 )
 from poise.estimators.self_calibrating.model import (
+    AGREED,
     ANOTHER_IRON,
     ANOTHER_NORTH,
     BY_FIND,
@@ -39,7 +40,7 @@ from poise.estimators.self_calibrating.model import (
     put,
     vector,
 )
-from poise.estimators.self_calibrating.turns import add_to_turns, fit_of_turns, forget_turns
+from poise.estimators.self_calibrating.turns import add_to_turns, fit_of_turns, forget_turns, mean_field, square_of
 from poise.estimators.self_calibrating.unproven import ANY, MOST, begin_open, narrow, shrink, trace
 from poise.math.compiled import compiled
 from poise.math.matrices import I3, Mat3
@@ -52,6 +53,7 @@ _TIME = 60.0  # s of turning that are remembered
 _LEAST = 12.5  # s of it that tell: errors of the field last some seconds
 _ALIKE = 0.1  # lengths: mean fields that differ by less are one
 _FAR = 4.0  # sigmas
+_AGREES = 2.5  # s of turning in which the field agreed with the usual one: that is not of one place only
 _EVEN = 0.15  # lengths: one that strays by more from its mean, as the sensor turns, is no field of the region
 
 
@@ -66,7 +68,7 @@ def look_at_field(
     seconds = take_lengths(method, P, s, now.length) if method.least_iron < ANY else 0.0
     if seconds == 0.0:
         return now, 0.0, GOES_ON
-    take_field(P, seen, R, seconds)
+    take_field(P, seen, R, known, now.field, seconds)
     if not is_time_to_look(P):
         return now, 0.0, GOES_ON
     by_lengths, by_turns = fit_of_lengths(method, P, known), fit_of_turns(method, P, known)
@@ -85,14 +87,14 @@ def look_at_field(
         P[LENGTHS, FOUND] += 1.0
         forget_field(P)
         return now, turned, ANOTHER_IRON
-    field = another_field(P, now.field)
+    field = another_field(P, known, now.field)
     if field == ZERO:
         return now, 0.0, GOES_ON
     if rules.length == 0.0 or may_be_on_sensor(V + dot(beside, beside) * I3, R.z, field, now.field):
         return now, 0.0, GOES_ON
     # 12. Another field than the one that the heading was set by
     C = Mat3(vector(P, IRON, IRON), vector(P, IRON + 1, IRON), vector(P, IRON + 2, IRON))
-    now, turned = set_by_field(method, P, Shown(known, norm(field), C, spread_of(P)), field, 0.0, now)
+    now, turned = set_by_field(method, P, Shown(known, norm(field), C, spread_of(P, known)), field, 0.0, now)
     shrink(P, norm(field))
     forget_field(P)
     return now, turned, ANOTHER_NORTH
@@ -120,41 +122,56 @@ def may_be_on_sensor(V: Mat3, up: Vec3, field: Vec3, usual: Vec3) -> bool:
 
 
 @compiled
-def forget_field(P: Floats) -> None:
-    """The heading was set by another field: nothing seen of it yet."""
+def forget_seen(P: Floats) -> None:
+    """The frame in which the field was seen has turned."""
     put(P, OPEN, MEAN, ZERO)
-    P[OPEN, SQUARE] = P[OPEN, SEEN] = P[OPEN, CONFIRMED] = 0.0
+    P[OPEN, SQUARE] = P[OPEN, SEEN] = P[OPEN, AGREED] = 0.0
     forget_turns(P)
 
 
 @compiled
-def take_field(P: Floats, field: Vec3, R: Mat3, seconds: float) -> None:
-    """A block's *field*, without the known iron, in the Earth's frame and in lengths; it stands for *seconds* of turning."""
+def forget_field(P: Floats) -> None:
+    """The heading was set by another field: nothing has confirmed that yet."""
+    forget_seen(P)
+    P[OPEN, CONFIRMED] = 0.0
+
+
+@compiled
+def take_field(P: Floats, seen: Vec3, R: Mat3, known: Vec3, usual: Vec3, seconds: float) -> None:
+    """A block's field *seen*, without the *known* iron, Earth frame and lengths; it stands for *seconds* of turning.
+
+    The means are with that iron, which is another when they are read.
+    """
     n = (1.0 - seconds / (_TIME + seconds)) * float(P[OPEN, SEEN]) + seconds
-    share, mean = seconds / n, vector(P, OPEN, MEAN)
+    share, mean, field, off = seconds / n, vector(P, OPEN, MEAN), seen + R @ known, seen - usual
     put(P, OPEN, MEAN, mean + share * (field - mean))
     P[OPEN, SQUARE] += share * (dot(field, field) - float(P[OPEN, SQUARE]))
     P[OPEN, SEEN] = n
+    if dot(off, off) < _ALIKE * _ALIKE:
+        P[OPEN, AGREED] += seconds
     add_to_turns(P, R, field, share)
 
 
 @compiled
-def another_field(P: Floats, usual: Vec3) -> Vec3:
-    """The mean field where that is even, another than the *usual* one and nothing has confirmed that; else nothing (eq. 31)."""
+def another_field(P: Floats, known: Vec3, usual: Vec3) -> Vec3:
+    """The mean field, without the *known* iron, where it is even, another than the *usual* one, and nothing spoke for that.
+
+    Else nothing (eq. 31).
+    """
     if P[OPEN, CONFIRMED] != 0.0 or P[OPEN, SEEN] < _LEAST:
         return ZERO
-    mean = vector(P, OPEN, MEAN)
+    mean = mean_field(P, known)
     off = mean - usual
-    if spread_of(P) > _EVEN * _EVEN * dot(mean, mean):
+    if spread_of(P, known) > _EVEN * _EVEN * dot(mean, mean):
         return ZERO
     if dot(off, off) < _ALIKE * _ALIKE and abs(mean.x) < MOST * mean.y:
         P[OPEN, CONFIRMED] = 1.0
         return ZERO
-    return mean
+    return mean if P[OPEN, AGREED] < _AGREES else ZERO
 
 
 @compiled
-def spread_of(P: Floats) -> float:
-    """Mean square of what the field has strayed from its mean, lengths²."""
-    mean = vector(P, OPEN, MEAN)
-    return max(float(P[OPEN, SQUARE]) - dot(mean, mean), 0.0)
+def spread_of(P: Floats, known: Vec3) -> float:
+    """Mean square of what the field, without the *known* iron, has strayed from its mean, lengths²."""
+    mean = mean_field(P, known)
+    return max(square_of(P, known) - dot(mean, mean), 0.0)

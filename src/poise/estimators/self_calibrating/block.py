@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import atan2, cos, sqrt
 from typing import TYPE_CHECKING
 
-from poise.estimators.self_calibrating.another_field import forget_field, look_at_field
+from poise.estimators.self_calibrating.another_field import forget_field, forget_seen, look_at_field
 from poise.estimators.self_calibrating.covariance import correct, correct_one, enter_block, forget, grow, symmetrise
 from poise.estimators.self_calibrating.iron import ANOTHER_WAY, add_turn, forget_lengths
 from poise.estimators.self_calibrating.learned import iron_from_before, of_this_unit
@@ -19,14 +19,12 @@ from poise.estimators.self_calibrating.model import (
     ANOTHER_NORTH,
     BEGUN_ANEW,
     BIAS,
-    CONFIRMED,
     FIELD,
     GOES_ON,
     HEADING_SET,
     IRON,
     JUST_FOUND,
     MAG_DELAY,
-    OPEN,
     SCALE,
     SIZE,
     SUMS,
@@ -153,6 +151,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         ):
             turned, anew = atan2(e.x, e.y + field.y), True
             q = exp(turned * UP) * q
+            forget_seen(P)
             forget(P, TURN + 2, 1, _UNKNOWN**2)
             e = Vec3(0.0, sqrt(e.x * e.x + (e.y + field.y) ** 2) - field.y, e.z)
         else:
@@ -207,8 +206,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     if bias_changed:  # 9. What was thought to be known of it is not
         doubt_bias(method, P)
         event = ANOTHER_BIAS
-        if P[OPEN, CONFIRMED] == 0.0:  # the frame in which the field was seen has turned
-            forget_field(P)
+        forget_seen(P)
     rested = state.still
     if rate_is_bias:  # and it rests, however far that is from the bias of before
         rested = state.calm

@@ -68,7 +68,7 @@ from poise.estimators.self_calibrating.model import (
     sensor_of,
     sums_of,
 )
-from poise.estimators.self_calibrating.unproven import begin_open
+from poise.estimators.self_calibrating.unproven import ANY, begin_open
 from poise.estimators.self_calibrating.watch import forget_watch, settled
 from poise.math.compiled import compiled
 from poise.math.matrices import I3, Mat3, matrix, transpose
@@ -195,6 +195,8 @@ class SelfCalibrating(NamedTuple):
         put(P, SENSOR, 9, ZERO)
         put(P, LENGTHS, BEGAN, ZERO)
         forget_field(P)
+        if known.length != 0.0 and self.least_iron < ANY:
+            P[OPEN, UNPROVEN] = 1.0
         attitude = attitude_of(sample.acc, sample.mag - iron, 0.0)
         return State(attitude, state.bias, ZERO, sample.gyr, sample.acc, 0.0, 0.0, state.begun, P)
 

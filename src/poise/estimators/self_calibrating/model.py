@@ -31,11 +31,11 @@ ROWS, COLUMNS = 40, 28
 # the m (3) of the last block that was taken. In the row of lengths, behind the means: how often an iron was found, the seconds
 # since they were looked at, the turn (3) since the last block, the m (3) that the heading was set by, the seconds since.
 # unproven.py keeps in OPEN a matrix (9), whether the heading is unproven, and an iron (3); another_field.py, behind that,
-# means of the field (3) and its square, their seconds, and whether they confirm what the heading was set by; and whether the
-# matrix is that of an iron that was found.
+# means of the field (3) and its square, their seconds, and whether they confirm what the heading was set by; whether the
+# matrix is that of an iron that was found, and the seconds that agreed. In TURNS turns.py keeps its means.
 SUMMED, HEADING_SET, TAKEN, JUST_FOUND = 16, 20, 21, 24
 FOUND, LOOKED, TURNED_SINCE, BEGAN, ELAPSED = 18, 19, 20, 23, 26
-UNPROVEN, BESIDE, MEAN, SQUARE, SEEN, CONFIRMED, BY_FIND = 9, 10, 13, 16, 17, 18, 19
+UNPROVEN, BESIDE, MEAN, SQUARE, SEEN, CONFIRMED, BY_FIND, AGREED = 9, 10, 13, 16, 17, 18, 19, 20
 # Behind that, where a smoother asked for it, one entry a block: P's rows of ε and bias after the corrections, what was
 # injected, what the block added up, and each correction's h and P h. Column 25 of the entry's rows holds single numbers.
 ENTRIES, ENTRY = ROWS, 28

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from poise.data.attitude import QUAT, Attitude
-from poise.data.flags import ANOTHER_FIELD, HEADING_UNPROVEN, KNOWN, LOST, RESET
+from poise.data.flags import ANOTHER_FIELD, HARD_IRON, HEADING_ARBITRARY, HEADING_UNPROVEN, INVALID, KNOWN, LOST, RESET
 from poise.data.learned import Learned
 from poise.data.recording import Recording
 from poise.errors import MethodError, RecordingError
@@ -22,7 +22,7 @@ from poise.estimators.self_calibrating.backward import apply, back
 from poise.estimators.self_calibrating.causal import SelfCalibrating
 from poise.estimators.self_calibrating.learned import KnownIron, begin_with_iron, irons_found, known_iron
 from poise.estimators.self_calibrating.model import COLUMNS as WIDTH
-from poise.estimators.self_calibrating.model import CONFIRMED, ENTRIES, ENTRY, OPEN, SENSOR, SIZE, Floats, sensor_of
+from poise.estimators.self_calibrating.model import ENTRIES, ENTRY, SENSOR, SIZE, Floats, sensor_of
 from poise.estimators.self_calibrating.unproven import ANY, MOST, left_open
 from poise.estimators.wrapping import at_gravity, innermost
 from poise.math import arrays
@@ -52,7 +52,8 @@ def smooth(
     The way back starts *overlap* seconds behind each *window* of them, while the way forward goes on; both together take
     about 80 kB of memory a second, at the default length of a block. Other arguments as for :func:`estimate`;
     ``attitude.learning`` is that of the way forward: of what walks the way back gives the bias, in every row, and what does
-    not is that of the last row. A hard iron that the way forward finds by the field's length is there from the start on.
+    not is that of the last row. A hard iron that the way forward finds is there from the start on,
+    and so is a heading that it sets by another field.
     Raises :class:`MethodError` for another method, and what :func:`estimate` raises.
     """
     if not isinstance(recording, Recording):
@@ -90,7 +91,7 @@ def _rising(progress: Callable[[int], None] | None) -> Callable[[int], None] | N
 
 
 class _IronShown(Exception):
-    """On the way forward the lengths of the field have shown a hard iron, at a *row*; it is known since as *iron*."""
+    """On the way forward the field has shown a hard iron, at a *row*; it is known since as *iron*."""
 
     def __init__(self, iron: KnownIron, row: int) -> None:
         self.iron, self.row = iron, row
@@ -163,14 +164,23 @@ def _both_ways(
 
 
 def judge_headings(P: Floats, attitude: Attitude, declination: float) -> None:
-    """Of the rows whose heading was unproven on the way forward, those that the motion has proven since are no longer."""
-    rows = np.flatnonzero(attitude.flags & np.uint32(HEADING_UNPROVEN))
+    """Of the rows whose heading was unproven on the way forward, those that the motion has proven since are no longer.
+
+    Iron is the sensor's, and what is open of it at the end counts for all rows. What a heading was set by is confirmed in the
+    stretch up to where it was set again, or never.
+    """
+    unproven = (attitude.flags & np.uint32(HEADING_UNPROVEN)) != 0
+    headed = (attitude.flags & np.uint32(INVALID | HEADING_ARBITRARY)) == 0
+    set_again = (attitude.flags & np.uint32(RESET | LOST | HARD_IRON)) != 0
+    set_again &= (attitude.flags & np.uint32(ANOTHER_FIELD)) == 0
+    stretch = np.cumsum(set_again)
+    confirmed = np.bincount(stretch, headed & ~unproven, stretch[-1] + 1 if len(stretch) else 0) > 0
+    rows = np.flatnonzero(unproven & confirmed[stretch])
     magnetic_east = np.array([cos(declination), -sin(declination), 0.0])
     east = arrays.rotate(arrays.conjugate(attitude.quat[rows]), np.broadcast_to(magnetic_east, (len(rows), 3)))
     open_square = np.einsum("ij,jk,ik->i", east, np.array(left_open(P)), east)
-    most = (MOST * sensor_of(P).field.y) ** 2
-    once = (open_square <= most).any() or (len(rows) and rows[-1] + 1 < len(attitude))
-    proven = (open_square <= (4.0 * most if once else most)) & (P[OPEN, CONFIRMED] != 0.0)  # as on the way forward
+    # as on the way forward, once proven
+    proven = open_square <= (2.0 * MOST * sensor_of(P).field.y) ** 2
     attitude.flags[rows[proven]] &= ~np.uint32(HEADING_UNPROVEN)
 
 

@@ -37,7 +37,7 @@ _R, _RR, _RF = 0, 9, 18  # the means of R, RᵀR, Rᵀf
 
 @compiled
 def add_to_turns(P: Floats, R: Mat3, field: Vec3, share: float) -> None:
-    """A block's mean R, and its *field* f in the Earth's frame, as a *share* of the means."""
+    """A block's mean R, and its *field* f in the Earth's frame, with all iron, as a *share* of the means."""
     Rt = transpose(R)
     R_before, RR_before, RF_before = three(P, TURNS, _R), three(P, TURNS, _RR), vector(P, TURNS, _RF)
     put_three(P, TURNS, _R, R_before + share * (R - R_before))
@@ -53,23 +53,37 @@ def forget_turns(P: Floats) -> None:
 
 
 @compiled
+def mean_field(P: Floats, iron: Vec3) -> Vec3:
+    """The mean field in the Earth's frame without that *iron*."""
+    mean: Vec3 = vector(P, OPEN, MEAN) - three(P, TURNS, _R) @ iron
+    return mean
+
+
+@compiled
+def square_of(P: Floats, iron: Vec3) -> float:
+    """The mean square of the field without that *iron*."""
+    square = float(P[OPEN, SQUARE])
+    return square - 2.0 * dot(iron, vector(P, TURNS, _RF)) + dot(iron, three(P, TURNS, _RR) @ iron)
+
+
+@compiled
 def fit_of_turns(method: SelfCalibrating, P: Floats, known: Vec3) -> Fit:
-    """What iron the turns show, beside the *known* one: f = c + R b, least squares (eq. 33)."""
+    """What iron the turns show, from the *known* one on: f = c + R b, least squares (eq. 33)."""
     samples = float(P[OPEN, SEEN]) / method.field_time  # that stand by themselves
     if samples < 2.0 * _FITTED + 1.0:
         return NO_FIT
-    R, mean = three(P, TURNS, _R), vector(P, OPEN, MEAN)
+    R = three(P, TURNS, _R)
     Rt = transpose(R)
     G: Mat3 = three(P, TURNS, _RR) - Rt @ R
-    s: Vec3 = vector(P, TURNS, _RF) - Rt @ mean
+    s: Vec3 = vector(P, TURNS, _RF) - Rt @ vector(P, OPEN, MEAN)
     information: Mat3 = G + (_UNTURNED * _UNTURNED) * I3
     inverted = inverse(information)
-    off: Vec3 = inverted @ s
-    left = max(float(P[OPEN, SQUARE]) - dot(mean, mean) - 2.0 * dot(off, s) + dot(off, G @ off), 0.0) / 3.0
-    field: Vec3 = mean - R @ off
+    iron: Vec3 = known + inverted @ (s - G @ known)
+    field = mean_field(P, iron)
     square = dot(field, field)
     if square <= 0.0:
         return NO_FIT
+    left = max(square_of(P, iron) - square, 0.0) / 3.0
     variance = (left * samples / (samples - _FITTED) + OWN * OWN * square) / samples
     unseen: Mat3 = (_UNTURNED * _UNTURNED) * inverted
-    return Fit(known + off, sqrt(square), information, variance, variance * inverted, unseen, left / square)
+    return Fit(iron, sqrt(square), information, variance, variance * inverted, unseen, left / square)
