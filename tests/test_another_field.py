@@ -16,7 +16,7 @@ from data_files import data_path
 from irons import FLAGSHIP, NEVER, WHITE, calibrated
 from poise.cli import run
 from poise.data.flags import Flag
-from poise.simulation import measure, robot
+from poise.simulation import forearm, measure, robot
 
 CORNERS = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)]) / np.sqrt(3.0)
 Mask = NDArray[np.bool_]
@@ -81,6 +81,36 @@ def test_backwards_a_restart_before_it_keeps_what_was_before_that() -> None:
     cut = beside(recording[~gap], (30.0, 0.0, 0.0), since=54.0, until=64.0)
     attitude = poise.smooth(cut)
     assert heading(attitude, cut)[cut.time < 54.0].max() < 3.0
+
+
+@pytest.mark.parametrize("motion", [forearm, robot])
+def test_backwards_what_confirmed_a_heading_after_a_gap_says_nothing_of_before(motion: Any) -> None:
+    """The first stretch was beside a magnet and ended before anything was known of that."""
+    recording = beside(measure(motion(120.0, 100.0, 3), WHITE, seed=3), (20.0, 0.0, 0.0), until=3.0)
+    cut = recording[(recording.time < 10.0) | (recording.time > 30.0)]
+    attitude = poise.smooth(cut)
+    early = cut.time < 10.0
+    assert np.median(heading(attitude, cut)[early]) > 20.0
+    assert flagged(attitude, Flag.HEADING_UNPROVEN)[early].all()
+
+
+@pytest.mark.parametrize("motion", [forearm, robot])
+def test_backwards_a_gap_near_the_end_takes_nothing_from_before(motion: Any) -> None:
+    recording = measure(motion(120.0, 100.0, 3), WHITE, seed=3)
+    cut = recording[((recording.time < 90.0) | (recording.time > 105.0)) & (recording.time < 110.0)]
+    assert flagged(poise.smooth(cut), Flag.HEADING_UNPROVEN)[cut.time < 90.0].mean() < 0.2
+
+
+def test_some_seconds_of_agreement_in_motion_speak_for_the_first_field() -> None:
+    """It was right, and not of one place: the other may be that of a steel hall."""
+    recording = measure(robot(120.0, 100.0, 3), WHITE, seed=3)
+    assert recording.truth is not None
+    there = (recording.time >= 10.0) & (recording.time < 60.0)
+    east = np.outer(there, [12.0, 0.0, 0.0])
+    in_body = poise.math.arrays.rotate(poise.math.arrays.conjugate(recording.truth.quat), east)
+    attitude = poise.estimate(FLAGSHIP, replace(recording, mag=recording.mag + in_body))  # type: ignore[operator]
+    assert not flagged(attitude, Flag.ANOTHER_FIELD).any()
+    assert heading(attitude, recording).max() < 15.0
 
 
 def test_a_robot_that_leaves_its_dock() -> None:

@@ -34,7 +34,7 @@ def memory_of(R: Floats, field: Floats, seconds: float = 0.5) -> Floats:
     """The filter's memory after blocks of the field (n, 3) in the Earth's frame, which each stand for *seconds*."""
     P = np.zeros((ROWS, COLUMNS))
     for r, f in zip(R, field, strict=True):
-        take_field(P, Vec3(*map(float, f)), Mat3(*(Vec3(*map(float, row)) for row in r)), seconds)
+        take_field(P, Vec3(*map(float, f)), Mat3(*(Vec3(*map(float, row)) for row in r)), ZERO, ZERO, seconds)
     return P
 
 
