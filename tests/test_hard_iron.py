@@ -16,16 +16,9 @@ from helpers import angle_between, plain
 from irons import FLAGSHIP, IRON, NEVER, WHITE, calibrated, degrees, second_half, with_iron
 from poise.data.flags import Flag
 from poise.data.packet import Packet
-from poise.estimators.self_calibrating.iron import (
-    Shown,
-    add_length,
-    add_turn,
-    fit_of_lengths,
-    forget_lengths,
-    shown_by,
-    take_lengths,
-)
+from poise.estimators.self_calibrating.iron import Shown, forget_lengths, shown_by
 from poise.estimators.self_calibrating.learned import iron_from_before
+from poise.estimators.self_calibrating.lengths import add_length, add_turn, fit_of_lengths, take_lengths
 from poise.estimators.self_calibrating.model import COLUMNS, NOTHING, ROWS, begin_block, sensor_of
 from poise.estimators.self_calibrating.turns import fit_of_turns
 from poise.estimators.wrapping import innermost

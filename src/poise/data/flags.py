@@ -80,7 +80,7 @@ SENTENCES: dict[Flag, str] = {
         "heading, if that was far off, jumps"
     ),
     Flag.HEADING_UNPROVEN: (
-        "the sensor has not been turned enough to rule out that iron on it, or beside it at the start, turns the heading: "
+        "iron on the sensor, or beside it at the start, may turn the heading: it has not turned enough to rule that out, and "
         "sigma allows for neither"
     ),
     Flag.ANOTHER_FIELD: (

@@ -8,18 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from poise.estimators.self_calibrating.iron import (
-    NOT_SHOWN,
-    Fit,
-    Shown,
-    fit_of_lengths,
-    is_time_to_look,
-    left_by,
-    seems,
-    set_by_field,
-    shown_by,
-    take_lengths,
-)
+from poise.estimators.self_calibrating.iron import NOT_SHOWN, Shown, better, left_by, seems, set_by_field, shown_by
+from poise.estimators.self_calibrating.lengths import fit_of_lengths, is_time_to_look, take_lengths
 from poise.estimators.self_calibrating.model import (
     AGREED,
     ANOTHER_IRON,
@@ -76,6 +66,7 @@ def look_at_field(
     V, beside = left_by(rules), seems(rules, known)
     if rules.length > 0.0:
         narrow(P, V, beside)
+    # The lengths need no attitude, so that theirs is asked first, whichever is better.
     shown = shown_by(method, P, known, by_lengths) if by_lengths.length > 0.0 else NOT_SHOWN
     if shown.length == 0.0 and by_turns.length > 0.0:
         shown = shown_by(method, P, known, by_turns)
@@ -98,14 +89,6 @@ def look_at_field(
     shrink(P, norm(field))
     forget_field(P)
     return now, turned, ANOTHER_NORTH
-
-
-@compiled
-def better(one: Fit, other: Fit) -> Fit:
-    """Of two fits the one that leaves less open."""
-    if one.length == 0.0 or other.length == 0.0:
-        return other if one.length == 0.0 else one
-    return one if trace(left_by(one)) < trace(left_by(other)) else other
 
 
 @compiled

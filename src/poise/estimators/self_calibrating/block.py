@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 
 from poise.estimators.self_calibrating.another_field import forget_field, forget_seen, look_at_field
 from poise.estimators.self_calibrating.covariance import correct, correct_one, enter_block, forget, grow, symmetrise
-from poise.estimators.self_calibrating.iron import ANOTHER_WAY, add_turn, forget_lengths
+from poise.estimators.self_calibrating.iron import ANOTHER_WAY, forget_lengths
 from poise.estimators.self_calibrating.learned import iron_from_before, of_this_unit
+from poise.estimators.self_calibrating.lengths import add_turn
 from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
     ANOTHER_BIAS,

@@ -29,9 +29,9 @@ from poise.data.packet import Output, Sample
 from poise.estimators.self_calibrating.another_field import forget_field
 from poise.estimators.self_calibrating.block import closed
 from poise.estimators.self_calibrating.covariance import enter_block, forget
-from poise.estimators.self_calibrating.iron import add_length
 from poise.estimators.self_calibrating.learned import check_start, doubts, iron_from_before, take_over, without_iron
 from poise.estimators.self_calibrating.learned import learned as known_by_now
+from poise.estimators.self_calibrating.lengths import add_length
 from poise.estimators.self_calibrating.model import (
     ACC_DELAY,
     ANOTHER_IRON,
@@ -118,7 +118,7 @@ class SelfCalibrating(NamedTuple):
     least_iron: Annotated[
         float,
         "1",
-        "a hard iron that the field's length shows is taken over from that size on, in lengths of it",
+        "a hard iron that the field shows is taken over from that size on, in lengths of it; none from 1 on",
         (0.0, 1e6),
     ] = 0.04
     mag_delay: Annotated[float, "s", "expected delay of the magnetometer behind the gyroscope", (-1.0, 1.0)] = 0.008

@@ -135,6 +135,16 @@ def enter_block(P: Floats, s: Sums, event: float) -> None:
 
 
 @compiled
+def _take_in(P: Floats, residual: float, per_S: float) -> None:
+    """x ← x + K residual, P ← P − K hᵀ P, with K = P h / S; row ROOM holds P h."""
+    for i in range(SIZE):
+        gain = P[ROOM, i] * per_S
+        P[X, i] += gain * residual
+        for j in range(SIZE):
+            P[i, j] -= gain * P[ROOM, j]
+
+
+@compiled
 def correct(P: Floats, residual: float, variance: float) -> None:
     """One measured number: K = P h/(hᵀ P h + R), x ← x + K (residual − hᵀ x), P ← P − K hᵀ P, in place (eq. 12).
 
@@ -153,11 +163,7 @@ def correct(P: Floats, residual: float, variance: float) -> None:
         S += P[H, i] * P[ROOM, i]
     per_S = 1.0 / S
     enter_correction(P, residual, per_S)
-    for i in range(SIZE):
-        gain = P[ROOM, i] * per_S
-        P[X, i] += gain * residual
-        for j in range(SIZE):
-            P[i, j] -= gain * P[ROOM, j]
+    _take_in(P, residual, per_S)
 
 
 @compiled
@@ -172,11 +178,7 @@ def correct_one(P: Floats, at: int, residual: float, variance: float) -> None:
             P[H, j] = 0.0
         P[H, at] = 1.0
         enter_correction(P, residual, per_S)
-    for i in range(SIZE):
-        gain = P[ROOM, i] * per_S
-        P[X, i] += gain * residual
-        for j in range(SIZE):
-            P[i, j] -= gain * P[ROOM, j]
+    _take_in(P, residual, per_S)
 
 
 @compiled

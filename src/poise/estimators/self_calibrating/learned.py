@@ -89,7 +89,7 @@ def learned(bias: Vec3, P: Floats) -> Learned:
 
 
 def _with_open_iron(P: Floats) -> Floats:
-    """The 25 errors' covariance, and in it what iron the motion leaves open where the field's length has told of none."""
+    """The 25 errors' covariance, and in it what iron the motion leaves open where none was found."""
     errors, V = P[:SIZE, :SIZE].copy(), three(P, OPEN, 0)
     if P[OPEN, BY_FIND] == 0.0 and trace(V) > VAGUE**2:
         errors[IRON : IRON + 3, IRON : IRON + 3] += np.array(V)

@@ -29,9 +29,9 @@ MOST = 0.1  # rad: a heading that may be off by more is not proven; one that has
 
 
 @compiled
-def begin_open(P: Floats, at_most: float) -> None:
-    """An iron of ANY size may be there, unless *at_most* says that nobody looks for one."""
-    any_square = ANY * ANY if at_most < ANY else 0.0
+def begin_open(P: Floats, least_iron: float) -> None:
+    """An iron of ANY size may be there, unless *least_iron* says that nobody looks for one."""
+    any_square = ANY * ANY if least_iron < ANY else 0.0
     put_three(P, OPEN, 0, Mat3(Vec3(any_square, 0.0, 0.0), Vec3(0.0, any_square, 0.0), Vec3(0.0, 0.0, any_square)))
     put(P, OPEN, BESIDE, ZERO)
     P[OPEN, BY_FIND] = 0.0
