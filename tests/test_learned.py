@@ -155,14 +155,14 @@ def test_its_picture(tmp_path: Path) -> None:
     learning = day1().learning
     assert learning is not None
     figure = learning_figure(learning, "made")
-    assert len(figure.axes) == 6
+    assert len(figure.axes) == 8
     drawn = next(line for line in figure.axes[0].lines if line.get_label() == "x")
     np.testing.assert_allclose(np.asarray(drawn.get_ydata())[-1], np.degrees(known()["gyr_bias"]["value"][0]))
     save_figure(figure, tmp_path / "a.svg")
     without = poise.estimate(FLAGSHIP, replace(made(4)[:1000], mag=None), learning=1.0).learning
     assert without is not None
-    assert len(learning_figure(without, narrow=True).axes) == 4
-    assert len(learning_figure(without[:0]).axes) == 4
+    assert len(learning_figure(without, narrow=True).axes) == 6
+    assert len(learning_figure(without[:0]).axes) == 6
 
 
 # -- files ----------------------------------------------------------------------------------------------------------------

@@ -28,6 +28,8 @@ _READABLE = {  # factor and unit to print a quantity in, and how many digits beh
     "gyr_bias": (degrees(1.0), "deg/s", 4),
     "gyr_scale": (100.0, "%", 3),
     "acc_delay": (1e3, "ms", 2),
+    "acc_bias": (1.0, "m/s²", 4),
+    "acc_scale": (100.0, "%", 3),
     "mag_delay": (1e3, "ms", 2),
 }
 _Format = Literal["parquet", "csv", "tum", "bag", "mcap", "ros2"]

@@ -206,7 +206,10 @@ class Attitude:
     # -- with other things ----------------------------------------------------------------------------------------
 
     def linear_acceleration(self, recording: Recording, frame: Literal["earth", "body"] = "earth") -> Floats:
-        """(n, 3) m/s²: the recording's acceleration without gravity, in the Earth frame (ENU) or the body frame."""
+        """(n, 3) m/s²: the recording's acceleration without gravity, in the Earth frame (ENU) or the body frame.
+
+        What was learned of the accelerometer's bias and scale is taken off.
+        """
         if len(recording) != len(self):
             raise RecordingError(
                 f"the recording has {len(recording)} rows, the attitude {len(self)}; resample the attitude to its time"
@@ -214,10 +217,12 @@ class Attitude:
         if frame not in ("earth", "body"):
             raise RecordingError(f'frame {frame!r} not understood; expected "earth" or "body"')
         quat = self.to("enu").quat
-        gravity = np.array([0.0, 0.0, recording.gravity])
+        gravity, acc = np.array([0.0, 0.0, recording.gravity]), recording.acc
+        if self.learned is not None and "acc_bias" in self.learned and "acc_scale" in self.learned:
+            acc = (1.0 + self.learned["acc_scale"]["value"]) * (acc - np.array(self.learned["acc_bias"]["value"]))
         if frame == "earth":
-            return np.asarray(arrays.rotate(quat, recording.acc) - gravity)
-        return np.asarray(recording.acc - arrays.rotate(arrays.conjugate(quat), gravity))
+            return np.asarray(arrays.rotate(quat, acc) - gravity)
+        return np.asarray(acc - arrays.rotate(arrays.conjugate(quat), gravity))
 
     def relative_to(self, other: Attitude) -> Attitude:
         """This body's orientation seen from the body of *other* (a joint's angle), at this attitude's times.

@@ -45,6 +45,8 @@ _PANELS = (
     _Panel("Gyroscope bias", "[°/s]", float(np.degrees(1.0)), tuple((f"gyr_bias_{a}", a) for a in "xyz"), 0.02),
     _Panel("Gyroscope scale", "[%]", 100.0, tuple((f"gyr_scale_{a}{a}", a) for a in "xyz"), 0.2),
     _Panel("Gyroscope misalignment", "[%]", 100.0, _OFF_DIAGONAL, 0.2),
+    _Panel("Accelerometer bias", "[m/s²]", 1.0, tuple((f"acc_bias_{a}", a) for a in "xyz"), 0.02),
+    _Panel("Accelerometer scale", "[%]", 100.0, (("acc_scale", "all axes"),), 0.2),
     _Panel("Hard iron", "[magnetometer's unit]", 1.0, tuple((f"hard_iron_{a}", a) for a in "xyz"), 0.0),
     _Panel("Field", "[magnetometer's unit]", 1.0, (("field_north", "north"), ("field_up", "up")), 0.0),
     _Panel(
@@ -54,7 +56,7 @@ _PANELS = (
 
 
 def learning_figure(learning: Learning, title: str = "", *, narrow: bool = False) -> Figure:
-    """Bias, scale, misalignment, hard iron, field and delays over time, as far as they are known, with bands of ±σ."""
+    """Biases, scales, misalignment, hard iron, field and delays over time, as far as they are known, with bands of ±σ."""
     panels = [panel for panel in _PANELS if any(name in learning.names for name, _ in panel.lines)]
     count = max(len(panels), 1)
     size = (NARROW, 0.8 + 2.0 * count) if narrow else (11.0, 0.9 + 1.75 * count)

@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from poise.estimators.self_calibrating.model import (
+    ACC_BIAS,
     ACC_DELAY,
+    ACC_SCALE,
     ADDED,
     ANOTHER_BIAS,
     ANOTHER_IRON,
@@ -32,6 +34,7 @@ from poise.estimators.self_calibrating.model import (
     vector,
 )
 from poise.math.compiled import compiled, entry
+from poise.math.matrices import Mat3
 from poise.math.quaternions import Quat, exp, inner
 from poise.math.vectors import UP, Vec3
 
@@ -65,6 +68,8 @@ def back_through_correction(future: Floats, P: Floats, row: int) -> None:
 def back_through_block(future: Floats, P: Floats, at: int) -> None:
     """λ ← Fᵀ λ, Λ ← Fᵀ Λ F (eq. 21), with F as in :func:`grow`."""
     S_R, S_f, S_l = three(P, at + ADDED, 9), vector(P, at + ADDED + 1, 9), vector(P, at + ADDED + 2, 9)
+    S_b: Mat3 = float(P[at + 2, ONE]) * S_R
+    gT = float(P[at + 3, ONE])
     for j in range(SIZE):  # Fᵀ times Λ
         ex, ey, ez = future[TURN, j], future[TURN + 1, j], future[TURN + 2, j]
         vx, vy, vz = future[VELOCITY, j], future[VELOCITY + 1, j], future[VELOCITY + 2, j]
@@ -74,6 +79,10 @@ def back_through_block(future: Floats, P: Floats, at: int) -> None:
         future[TURN, j] += S_f.y * vz - S_f.z * vy
         future[TURN + 1, j] += S_f.z * vx - S_f.x * vz
         future[ACC_DELAY, j] += S_l.x * vx + S_l.y * vy + S_l.z * vz
+        future[ACC_BIAS, j] -= S_b.x.x * vx + S_b.y.x * vy + S_b.z.x * vz
+        future[ACC_BIAS + 1, j] -= S_b.x.y * vx + S_b.y.y * vy + S_b.z.y * vz
+        future[ACC_BIAS + 2, j] -= S_b.x.z * vx + S_b.y.z * vy + S_b.z.z * vz
+        future[ACC_SCALE, j] += gT * vz
         future[SIZE + 1, j], future[SIZE + 2, j], future[SIZE + 3, j] = ex, ey, ez
     for k in range(9):
         x, y, z = P[at + ADDED, k], P[at + ADDED + 1, k], P[at + ADDED + 2, k]
@@ -83,7 +92,8 @@ def back_through_block(future: Floats, P: Floats, at: int) -> None:
         if VELOCITY <= i < ACC_DELAY:
             for j in range(VELOCITY):
                 future[i, j] = future[j, i]
-            future[i, ACC_DELAY] = future[ACC_DELAY, i]
+            for j in range(ACC_DELAY, SIZE):
+                future[i, j] = future[j, i]
         else:
             e, v = vector(future, i, TURN), vector(future, i, VELOCITY)
             future[i, BIAS] -= S_R.x.x * e.x + S_R.y.x * e.y + S_R.z.x * e.z
@@ -94,6 +104,10 @@ def back_through_block(future: Floats, P: Floats, at: int) -> None:
             future[i, TURN] += S_f.y * v.z - S_f.z * v.y
             future[i, TURN + 1] += S_f.z * v.x - S_f.x * v.z
             future[i, ACC_DELAY] += S_l.x * v.x + S_l.y * v.y + S_l.z * v.z
+            future[i, ACC_BIAS] -= S_b.x.x * v.x + S_b.y.x * v.y + S_b.z.x * v.z
+            future[i, ACC_BIAS + 1] -= S_b.x.y * v.x + S_b.y.y * v.y + S_b.z.y * v.z
+            future[i, ACC_BIAS + 2] -= S_b.x.z * v.x + S_b.y.z * v.y + S_b.z.z * v.z
+            future[i, ACC_SCALE] += gT * v.z
 
 
 @compiled
@@ -107,7 +121,7 @@ def forget_future(future: Floats, k: int) -> None:
 @entry
 def back(log: Floats, future: Floats, corrections: Floats) -> None:
     """From the last entry of *log* to the first: the corrections (n, 22) of ε and bias after each block, what was injected
-    there, their variances, whether the attitude was begun anew, ε's causal variances; *future* (29, 25) holds Λ, λ and room.
+    there, their variances, whether the attitude was begun anew, ε's causal variances; *future* (33, 29) holds Λ, λ and room.
     """
     for n in range(len(corrections) - 1, -1, -1):
         at = n * ENTRY
@@ -135,6 +149,8 @@ def back(log: Floats, future: Floats, corrections: Floats) -> None:
                 forget_future(future, VELOCITY + k)
             if event == ANOTHER_BIAS:
                 for k in range(BIAS, BIAS + 3):
+                    forget_future(future, k)
+                for k in range(ACC_BIAS, SIZE):
                     forget_future(future, k)
             if event in (ANOTHER_IRON, ANOTHER_NORTH):
                 for k in range(FIELD, MAG_DELAY + 1):

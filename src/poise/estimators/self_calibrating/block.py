@@ -14,7 +14,9 @@ from poise.estimators.self_calibrating.iron import ANOTHER_WAY, forget_lengths
 from poise.estimators.self_calibrating.learned import iron_from_before, of_this_unit
 from poise.estimators.self_calibrating.lengths import add_turn
 from poise.estimators.self_calibrating.model import (
+    ACC_BIAS,
     ACC_DELAY,
+    ACC_SCALE,
     ANOTHER_BIAS,
     ANOTHER_IRON,
     ANOTHER_NORTH,
@@ -23,6 +25,7 @@ from poise.estimators.self_calibrating.model import (
     FIELD,
     GOES_ON,
     HEADING_SET,
+    HELD,
     IRON,
     JUST_FOUND,
     MAG_DELAY,
@@ -56,13 +59,14 @@ from poise.estimators.self_calibrating.watch import (
 )
 from poise.math.compiled import compiled
 from poise.math.matrices import Mat3, matrix, transpose
-from poise.math.quaternions import Quat, conjugate, exp, normalize, rotate, shortest_turn
+from poise.math.quaternions import Quat, conjugate, exp, log, normalize, rotate, shortest_turn
 from poise.math.vectors import UP, ZERO, Vec3, dot, norm, unit
 
 if TYPE_CHECKING:
     from poise.estimators.self_calibrating.causal import SelfCalibrating
 
 _UNKNOWN = 0.5  # rad: σ of a heading that a correction, which is linear, may not reach
+_TEACHES = 10.0  # s of a rest that tell of the accelerometer's bias; then what jitters is regressed on itself
 _ANOTHER = 100.0  # lengths: what was taken for the field, so much smaller than what came then, was none
 
 
@@ -79,16 +83,21 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     noise = Noise(
         (method.gyr_noise**2 + method.scale_noise**2 * rate_square) * T + s.unmeasured,
         walk**2 * T,
-        (method.acc_noise**2 + method.motion_noise**2 * s.excess_square / s.samples) * T,
+        (method.acc_noise**2 + method.motion_noise**2 * s.excess_square / s.samples) * T
+        + method.shock_noise**2 * s.jump_square,
         method.field_walk**2 * T,
         method.iron_walk**2 * T,
+        method.acc_bias_walk**2 * T,
     )
-    grow(P, s, noise)
+    P[SUMS, HELD] = 1.0 if state.still > _TEACHES else 0.0
+    grow(P, s, noise, method.gravity)
     if s.force_time == 0.0:
         lose_velocity(P, known.wander, T / method.speed_time if method.speed_time > T else 1.0)
     add_clipping(P, s.clipped, 0.4 * method.gyr_range)
-    if not state.begun and known.acc_delay == 0.0:  # half an interval: whether a sample is the mean before its stamp
-        P[ACC_DELAY, ACC_DELAY] += (0.5 * T / s.samples) ** 2
+    acc_delay, interval = known.acc_delay, T / s.samples
+    if not state.begun and acc_delay == 0.0:  # somewhere from none to half an interval
+        acc_delay = 0.25 * interval
+        P[ACC_DELAY, ACC_DELAY] += (0.15 * interval) ** 2
     q = state.attitude if state.begun else levelled(method, state.attitude, s)
     force = s.force if state.begun else rotate(q * conjugate(state.attitude), s.force)
     v = known.velocity + force - (method.gravity * s.force_time) * UP
@@ -182,10 +191,12 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         field + Vec3(0.0, float(P[X, FIELD]), float(P[X, FIELD + 1])),
         iron + vector(P, X, IRON),
         known.mag_delay + float(P[X, MAG_DELAY]),
-        known.acc_delay + float(P[X, ACC_DELAY]),
+        acc_delay + float(P[X, ACC_DELAY]),
         length,
         spread,
         wander,
+        known.acc_bias + vector(P, X, ACC_BIAS),
+        known.acc_scale + float(P[X, ACC_SCALE]),
     )
     q = normalize(exp(vector(P, X, TURN)) * q)
     event = BEGUN_ANEW if anew else GOES_ON
@@ -214,7 +225,9 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         correct_one(P, BIAS, still.x, method.rest_noise**2)
         correct_one(P, BIAS + 1, still.y, method.rest_noise**2)
         correct_one(P, BIAS + 2, still.z, method.rest_noise**2)
-    enter_block(P, s, event)
+    if not state.begun:  # the rows of the first block are behind by all that its end has turned
+        put(P, X, TURN, log(q * conjugate(state.attitude)))
+    enter_block(P, s, event, method.gravity)
     begin_block(P)
     P[SUMS + 1, HEADING_SET] = turned
     P[SUMS + 1, JUST_FOUND] = event if event in (ANOTHER_IRON, ANOTHER_NORTH) else GOES_ON

@@ -33,7 +33,9 @@ from poise.estimators.self_calibrating.learned import check_start, doubts, iron_
 from poise.estimators.self_calibrating.learned import learned as known_by_now
 from poise.estimators.self_calibrating.lengths import add_length
 from poise.estimators.self_calibrating.model import (
+    ACC_BIAS,
     ACC_DELAY,
+    ACC_SCALE,
     ANOTHER_IRON,
     ANOTHER_NORTH,
     BEGAN,
@@ -42,6 +44,7 @@ from poise.estimators.self_calibrating.model import (
     COLUMNS,
     ENTRY,
     FIELD,
+    FORCE,
     HEADING_SET,
     IRON,
     JUST_FOUND,
@@ -67,6 +70,7 @@ from poise.estimators.self_calibrating.model import (
     put_sums,
     sensor_of,
     sums_of,
+    vector,
 )
 from poise.estimators.self_calibrating.unproven import ANY, begin_open
 from poise.estimators.self_calibrating.watch import forget_watch, settled
@@ -89,6 +93,9 @@ class SelfCalibrating(NamedTuple):
     bias_walk_rest: Annotated[float, "rad/s/√s", "random walk of the bias at rest", (0.0, 10.0)] = 2e-6
     acc_noise: Annotated[float, "m/s²/√Hz", "accelerometer noise σ_v", (1e-9, 1e3)] = 0.01
     motion_noise: Annotated[float, "√s", "κ: noise per specific force beyond gravity", (0.0, 1e3)] = 0.01
+    shock_noise: Annotated[
+        float, "1", "share of a change of the specific force that a shock between two samples may be", (0.0, 1e3)
+    ] = 0.3
     speed: Annotated[float, "m/s·√s", "how far the pseudo-velocity strays from 0, over one second", (1e-6, 1e6)] = 0.2
     speed_time: Annotated[float, "s", "how long a velocity lasts, that it has in motion", (0.0, 1e6)] = 0.4
     fastest: Annotated[float, "m/s", "largest velocity that is believed to last, RMS of an axis", (1e-3, 1e6)] = 2.0
@@ -114,6 +121,13 @@ class SelfCalibrating(NamedTuple):
     initial_heading: Annotated[float, "rad", "σ of the heading at the start", (1e-6, 10.0)] = radians(60.0)
     initial_bias: Annotated[float, "rad/s", "σ of the gyroscope's bias at the start", (1e-9, 10.0)] = radians(1.0)
     initial_scale: Annotated[float, "1", "σ of each element of A at the start", (0.0, 1.0)] = 0.003
+    initial_acc_bias: Annotated[float, "m/s²", "σ of the accelerometer's bias at the start, per axis", (0.0, 10.0)] = (
+        0.03
+    )
+    initial_acc_scale: Annotated[
+        float, "1", "σ of the accelerometer's scale at the start: that of gravity's length", (0.0, 1.0)
+    ] = 0.03
+    acc_bias_walk: Annotated[float, "m/s²/√s", "random walk of the accelerometer's bias", (0.0, 10.0)] = 1e-4
     initial_iron: Annotated[float, "1", "σ of the hard iron at the start, in lengths of the field", (0.0, 10.0)] = 3e-3
     least_iron: Annotated[
         float,
@@ -124,8 +138,8 @@ class SelfCalibrating(NamedTuple):
     mag_delay: Annotated[float, "s", "expected delay of the magnetometer behind the gyroscope", (-1.0, 1.0)] = 0.008
     mag_delay_sigma: Annotated[float, "s", "σ of that delay", (0.0, 1.0)] = 0.008
     acc_delay_sigma: Annotated[
-        float, "s", "σ of the accelerometer's delay, beside half a sampling interval", (0.0, 1.0)
-    ] = 0.001
+        float, "s", "σ of the accelerometer's delay, beside that of its share of a sampling interval", (0.0, 1.0)
+    ] = 0.0005
     rest_time: Annotated[float, "s", "how long the sensor must hold still before that counts as rest"] = 1.5
     rest_gyr: Annotated[
         float, "rad/s", "largest mean rate, or distance of it from the bias, and of a sample from it, at rest, per axis"
@@ -169,12 +183,14 @@ class SelfCalibrating(NamedTuple):
         forget(P, IRON, 3, self.initial_iron**2)
         forget(P, MAG_DELAY, 1, self.mag_delay_sigma**2)
         forget(P, ACC_DELAY, 1, self.acc_delay_sigma**2)
+        forget(P, ACC_BIAS, 3, self.initial_acc_bias**2)
+        forget(P, ACC_SCALE, 1, self.initial_acc_scale**2)
         unsure_attitude(self, P)
         begin_open(P, self.least_iron)
         if present(sample.mag) and float(P[OPEN, 0]) > 0.0:
             P[OPEN, UNPROVEN] = 1.0
         none = Mat3(ZERO, ZERO, ZERO)
-        put_sensor(P, Sensor(none, ZERO, ZERO, ZERO, self.mag_delay, 0.0, 0.0, _FIRST_SPREAD, _FIRST_WANDER))
+        put_sensor(P, Sensor(none, ZERO, ZERO, ZERO, self.mag_delay, 0.0, 0.0, _FIRST_SPREAD, _FIRST_WANDER, ZERO, 0.0))
         attitude = attitude_of(sample.acc, sample.mag, 0.0)
         return State(attitude, bias, ZERO, sample.gyr, sample.acc, 0.0, 0.0, False, P)
 
@@ -189,10 +205,11 @@ class SelfCalibrating(NamedTuple):
         unsure_attitude(self, P)
         if state.begun:
             forget(P, TURN, 2, (4.0 * self.initial_tilt) ** 2)  # it may well be in motion
-            enter_block(P, NOTHING, BEGUN_ANEW)
+            enter_block(P, NOTHING, BEGUN_ANEW, self.gravity)
         begin_block(P)
         forget_watch(P)
         put(P, SENSOR, 9, ZERO)
+        put(P, SENSOR, FORCE, ZERO)
         put(P, LENGTHS, BEGAN, ZERO)
         forget_field(P)
         if known.length != 0.0 and self.least_iron < ANY:
@@ -212,7 +229,9 @@ class SelfCalibrating(NamedTuple):
         R = matrix(q)
 
         # 3. What the block adds up
-        add_turned(P, R, T * g)
+        resting = state.still >= self.rest_time
+        if not resting:  # what turns a sensor at rest is noise, and shows nothing of A, nor of a delay
+            add_turned(P, R, T * g)
         clipped = s.clipped
         if not within(sample.gyr, 0.98 * self.gyr_range):
             clipped = clipped + T * clipped_columns(R, sample.gyr, 0.98 * self.gyr_range)
@@ -221,13 +240,22 @@ class SelfCalibrating(NamedTuple):
         calm = within(sample.gyr - mean_gyr, self.rest_gyr)
         slow = within(mean_gyr, self.rest_gyr) or within(mean_gyr - state.bias, self.rest_gyr)
         mean_acc = state.mean_acc
-        force, force_late, force_time, excess = s.force, s.force_late, s.force_time, s.excess_square
+        force, force_late, force_time, excess, jumps = (
+            s.force, s.force_late, s.force_time, s.excess_square, s.jump_square,
+        )  # fmt: skip
         if present(f):
             mean_acc = mean_acc + share * (f - mean_acc)
             calm = calm and within(f - mean_acc, self.rest_acc)
+            f = (1.0 + known.acc_scale) * (f - known.acc_bias)
+            before = vector(P, SENSOR, FORCE)
+            jump = f - before if before != ZERO else ZERO
+            put(P, SENSOR, FORCE, f)
+            jumps += sample.acc_dt * sample.acc_dt * dot(jump, jump)
             earth: Vec3 = R @ turned_back(f, w, known.acc_delay)
-            moved: Vec3 = R @ cross(w, f)
-            force, force_late = force + sample.acc_dt * earth, force_late - sample.acc_dt * moved
+            force = force + sample.acc_dt * earth
+            if not resting:
+                moved: Vec3 = R @ cross(w, f)
+                force_late = force_late - sample.acc_dt * moved
             force_time += sample.acc_dt
             beyond = earth - self.gravity * UP
             rows = sample.acc_dt / T if T > 0.0 else 1.0  # that it stands for: an accelerometer may be slower
@@ -240,13 +268,15 @@ class SelfCalibrating(NamedTuple):
                 u: Vec3 = transpose(R) @ known.field
                 left: Vec3 = R @ turned_back(m / known.length - known.iron, w, known.mag_delay)
                 late: Vec3 = R @ cross(w, u)
-                off, to_iron, to_delay = off + left - known.field, to_iron + R, to_delay + late
+                off, to_iron = off + left - known.field, to_iron + R
+                if not resting:
+                    to_delay = to_delay + late
             else:
                 seen: Vec3 = R @ m
                 off, to_iron = off + seen, to_iron + R
         sums = Sums(
             s.time + T, s.samples + 1.0, s.rotation + T * R, force, force_late, force_time, s.gyr + sample.gyr,
-            s.rate_square + dot(w, w), excess, mags, mag_time, off, to_iron, to_delay, clipped,
+            s.rate_square + dot(w, w), excess, jumps, mags, mag_time, off, to_iron, to_delay, clipped,
             s.unmeasured + sample.turn_variance,
         )  # fmt: skip
         seconds = state.calm + T if calm else 0.0

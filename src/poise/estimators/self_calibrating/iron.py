@@ -153,6 +153,7 @@ def set_by_field(
     field = Vec3(0.0, sqrt(e.x * e.x + e.y * e.y), e.z)
     spread = max(min(now.spread, shown.spread), trace(C))
     known = Sensor(
-        scale_before(P), now.velocity, field, iron, method.mag_delay, now.acc_delay, length, spread, now.wander
-    )
+        scale_before(P), now.velocity, field, iron, method.mag_delay, now.acc_delay, length, spread, now.wander,
+        now.acc_bias, now.acc_scale,
+    )  # fmt: skip
     return known, turn

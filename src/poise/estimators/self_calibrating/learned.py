@@ -11,7 +11,9 @@ from poise.data.learned import Learned, named
 from poise.errors import MethodError
 from poise.estimators.self_calibrating.covariance import forget
 from poise.estimators.self_calibrating.model import (
+    ACC_BIAS,
     ACC_DELAY,
+    ACC_SCALE,
     BIAS,
     BY_FIND,
     FOUND,
@@ -42,6 +44,8 @@ GROWTH = {
     "hard_iron": 0.01,  # lengths of the field: offset of the magnetometer, and what lies beside it
     "mag_delay": 1e-3,  # s: two clocks that start anew; firmware and filters stay
     "acc_delay": 3e-4,  # s
+    "acc_bias": 0.02,  # m/s²: 0.1 to 0.5 mg a kelvin, some kelvin
+    "acc_scale": 2e-3,  # 0.01 to 0.03 % a kelvin, and gravity of another place
 }
 _DOUBTED = 3.0  # sigmas
 _UNIT = "of the magnetometer"  # whatever that is: only directions count
@@ -50,25 +54,36 @@ _PLACES = {
     "gyr_bias": range(BIAS, BIAS + 3),
     "gyr_scale": range(SCALE, SCALE + 9),
     "acc_delay": range(ACC_DELAY, ACC_DELAY + 1),
+    "acc_bias": range(ACC_BIAS, ACC_BIAS + 3),
+    "acc_scale": range(ACC_SCALE, ACC_SCALE + 1),
     "hard_iron": range(IRON, IRON + 3),
     "mag_delay": range(MAG_DELAY, MAG_DELAY + 1),
 }  # of what belongs to the sensor, not to the place
 _SHAPES: dict[str, tuple[int, ...]] = {
-    "gyr_bias": (3,), "gyr_scale": (3, 3), "acc_delay": (), "hard_iron": (3,), "mag_delay": (), "field": (2,),
+    "gyr_bias": (3,), "gyr_scale": (3, 3), "acc_delay": (), "acc_bias": (3,), "acc_scale": (), "hard_iron": (3,),
+    "mag_delay": (), "field": (2,),
 }  # fmt: skip
-_UNITS = {"gyr_bias": "rad/s", "gyr_scale": "1", "acc_delay": "s", "mag_delay": "s"}
-_LARGEST = {"gyr_bias": 10.0, "gyr_scale": 1.0, "acc_delay": 1.0, "mag_delay": 1.0}
+_UNITS = {
+    "gyr_bias": "rad/s", "gyr_scale": "1", "acc_delay": "s", "acc_bias": "m/s²", "acc_scale": "1", "mag_delay": "s",
+}  # fmt: skip
+_LARGEST = {
+    "gyr_bias": 10.0, "gyr_scale": 1.0, "acc_delay": 1.0, "acc_bias": 10.0, "acc_scale": 1.0, "mag_delay": 1.0,
+}  # fmt: skip
 
 
 def learned(bias: Vec3, P: Floats) -> Learned:
     """What is known by now; the covariance is that of all that belongs to the sensor.
 
     ``gyr_bias`` (3) and ``gyr_scale`` (3, 3) with ω = (I + A)(gyr − bias); ``field`` (2), north and up, ``hard_iron`` (3,
-    body frame) in the magnetometer's unit; ``mag_delay`` and ``acc_delay`` behind the gyroscope. Without a magnetometer
+    body frame) in the magnetometer's unit; ``mag_delay`` and ``acc_delay`` behind the gyroscope; ``acc_bias`` (3) and
+    ``acc_scale`` with f = (1 + s)(acc − bias). Without a magnetometer
     nothing is said of one. As long as the sensor has not been turned about all axes, the iron is as unsure as that leaves it.
     """
     known, size = sensor_of(P), np.ones(SIZE)
-    values: dict[str, Any] = {"gyr_bias": bias, "gyr_scale": known.scale, "acc_delay": known.acc_delay}
+    values: dict[str, Any] = {
+        "gyr_bias": bias, "gyr_scale": known.scale, "acc_delay": known.acc_delay, "acc_bias": known.acc_bias,
+        "acc_scale": known.acc_scale,
+    }  # fmt: skip
     if known.length > 0.0:
         size[IRON - 2 : IRON + 3] = known.length  # the field's two stand before the hard iron's three
         values["field"] = known.length * np.array(known.field[1:])
@@ -89,7 +104,7 @@ def learned(bias: Vec3, P: Floats) -> Learned:
 
 
 def _with_open_iron(P: Floats) -> Floats:
-    """The 25 errors' covariance, and in it what iron the motion leaves open where none was found."""
+    """The 29 errors' covariance, and in it what iron the motion leaves open where none was found."""
     errors, V = P[:SIZE, :SIZE].copy(), three(P, OPEN, 0)
     if P[OPEN, BY_FIND] == 0.0 and trace(V) > VAGUE**2:
         errors[IRON : IRON + 3, IRON : IRON + 3] += np.array(V)
@@ -133,7 +148,11 @@ def take_over(P: Floats, learned: Learned, expected_iron: float, least_iron: flo
         iron = Vec3(*(float(v) / length for v in learned["hard_iron"]["value"]))
         known = known._replace(iron=iron, mag_delay=float(learned["mag_delay"]["value"]), length=-length)
     scale = Mat3(*(Vec3(*map(float, row)) for row in learned["gyr_scale"]["value"]))
-    put_sensor(P, known._replace(scale=scale, acc_delay=float(learned["acc_delay"]["value"])))
+    known = known._replace(scale=scale, acc_delay=float(learned["acc_delay"]["value"]))
+    if "acc_bias" in learned and "acc_scale" in learned:
+        acc_bias = Vec3(*(float(v) for v in learned["acc_bias"]["value"]))
+        known = known._replace(acc_bias=acc_bias, acc_scale=float(learned["acc_scale"]["value"]))
+    put_sensor(P, known)
     for name in kept:
         forget(P, _PLACES[name].start, len(_PLACES[name]), 0.0)
     places = {n: i for name in kept for n, i in zip(named(name, learned[name]["value"]), _PLACES[name], strict=True)}
@@ -226,7 +245,7 @@ def doubts(before: Learned, after: Learned) -> list[str]:
     told = []
     for name, was, deviation in zip(names, values, sigma, strict=True):
         quantity = next((key for key in (*_PLACES, "field") if name.startswith(key)), "")
-        if quantity in ("gyr_bias", "gyr_scale", "acc_delay", "mag_delay") and name in found:
+        if quantity in _UNITS and name in found:
             expected = float(np.hypot(deviation, GROWTH[quantity]))
             if abs(found[name] - was) > _DOUBTED * expected:
                 unit = before[quantity]["unit"]

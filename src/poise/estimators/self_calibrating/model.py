@@ -1,8 +1,9 @@
 """What SelfCalibrating estimates, how its errors grow over a block, and how one measured number corrects them.
 
-Errors, 25 numbers in this order, each true − estimated; the attitude's is a small turn ε about the Earth's axes,
+Errors, 29 numbers in this order, each true − estimated; the attitude's is a small turn ε about the Earth's axes,
 R_true = Exp(ε) R: ε (3), gyroscope bias (3), gyroscope scale and misalignment A (9, by rows), pseudo-velocity v (3),
-field h (north and up), hard iron (3), delay of the magnetometer and of the accelerometer behind the gyroscope.
+field h (north and up), hard iron (3), delay of the magnetometer and of the accelerometer behind the gyroscope, bias (3)
+and scale of the accelerometer.
 Equation numbers are those of ``docs/methods/self-calibrating.md``.
 """
 
@@ -21,12 +22,24 @@ from poise.math.vectors import ZERO, Vec3
 Floats = NDArray[np.float64]
 
 # The errors' places.
-TURN, BIAS, SCALE, VELOCITY, FIELD, IRON, MAG_DELAY, ACC_DELAY, SIZE = 0, 3, 6, 15, 18, 20, 23, 24, 25
-# One table is the memory: P in its first 25 rows, then these. A NamedTuple of as many numbers would be copied at every step.
-H, X, ROOM = 25, 26, 27  # of a correction: what is measured of the errors, their estimate, P h
-TURNED = 28  # three rows: S_A = Σ R[:, i] g_j dt, column 3 i + j
-SUMS, SENSOR, KEPT, LENGTHS, OPEN, TURNS = 31, 34, 35, 37, 38, 39  # two rows keep what was known before: recall.py
-ROWS, COLUMNS = 40, 28
+TURN, BIAS, SCALE, VELOCITY, FIELD, IRON, MAG_DELAY, ACC_DELAY, ACC_BIAS, ACC_SCALE = (
+    0,
+    3,
+    6,
+    15,
+    18,
+    20,
+    23,
+    24,
+    25,
+    28,
+)
+SIZE = 29
+# One table is the memory: P in its first 29 rows, then these. A NamedTuple of as many numbers would be copied at every step.
+H, X, ROOM = 29, 30, 31  # of a correction: what is measured of the errors, their estimate, P h
+TURNED = 32  # three rows: S_A = Σ R[:, i] g_j dt, column 3 i + j
+SUMS, SENSOR, KEPT, LENGTHS, OPEN, TURNS = 35, 38, 39, 41, 42, 43  # two rows keep what was known before: recall.py
+ROWS, COLUMNS = 44, 32
 # iron.py keeps, behind the sums of the second row, a block's sums of m (3) and |m|², the turn that the heading was set by, and
 # the m (3) of the last block that was taken. In the row of lengths, behind the means: how often an iron was found, the seconds
 # since they were looked at, the turn (3) since the last block, the m (3) that the heading was set by, the seconds since.
@@ -35,9 +48,11 @@ ROWS, COLUMNS = 40, 28
 # matrix is that of an iron that was found, and the seconds that agreed. In TURNS turns.py keeps its means.
 SUMMED, HEADING_SET, TAKEN, JUST_FOUND = 16, 20, 21, 24
 FOUND, LOOKED, TURNED_SINCE, BEGAN, ELAPSED = 18, 19, 20, 23, 26
+# Behind its sums the first row keeps whether the accelerometer's bias is held, that of what is known the last force (3).
+HELD, FORCE = 26, 29
 UNPROVEN, BESIDE, MEAN, SQUARE, SEEN, CONFIRMED, BY_FIND, AGREED = 9, 10, 13, 16, 17, 18, 19, 20
 # Behind that, where a smoother asked for it, one entry a block: P's rows of ε and bias after the corrections, what was
-# injected, what the block added up, and each correction's h and P h. Column 25 of the entry's rows holds single numbers.
+# injected, what the block added up, and each correction's h and P h. Column 29 of the entry's rows holds single numbers.
 ENTRIES, ENTRY = ROWS, 28
 INJECTED, ADDED, CORRECTIONS, MOST = 6, 7, 10, 9
 ONE = SIZE  # the column of single numbers
@@ -58,7 +73,7 @@ class State(NamedTuple):
     calm: float  # s that neither rate nor force have strayed from their means
     still: float  # s of that in which the mean rate could be the bias
     begun: bool  # a block has been closed
-    P: Floats  # (40, 28): the errors' covariance and, below it, the rest of the memory: see ROWS
+    P: Floats  # (44, 32): the errors' covariance and, below it, the rest of the memory: see ROWS
 
 
 class Sums(NamedTuple):
@@ -73,6 +88,7 @@ class Sums(NamedTuple):
     gyr: Vec3  # Σ of the rate as measured
     rate_square: float  # Σ |ω|²
     excess_square: float  # Σ |R f − g e_z|² over the rows that it stands for
+    jump_square: float  # (m/s)²: Σ |f − f before|² dt²
     mags: float  # magnetometer samples
     mag_time: float  # s that they stand for
     off: Vec3  # Σ R₀ (m − b − u), R₀ the attitude at the magnetometer's instant; Σ R m before the field is known
@@ -94,9 +110,11 @@ class Sensor(NamedTuple):
     length: float  # of the field in the magnetometer's unit; 0 while unknown
     spread: float  # s²: mean square of the field's errors, per axis
     wander: float  # s_v², (m/s)²: mean square of the pseudo-velocity in motion, per axis
+    acc_bias: Vec3  # b_a, m/s², body frame: f = (1 + s_a)(acc − b_a)
+    acc_scale: float  # s_a
 
 
-NOTHING = Sums(0.0, 0.0, _NONE, ZERO, ZERO, 0.0, ZERO, 0.0, 0.0, 0.0, 0.0, ZERO, _NONE, ZERO, _NONE, 0.0)
+NOTHING = Sums(0.0, 0.0, _NONE, ZERO, ZERO, 0.0, ZERO, 0.0, 0.0, 0.0, 0.0, 0.0, ZERO, _NONE, ZERO, _NONE, 0.0)
 
 
 class Noise(NamedTuple):
@@ -107,6 +125,7 @@ class Noise(NamedTuple):
     velocity: float  # (m/s)²
     field: float  # of a field of length 1
     iron: float
+    acc_bias: float  # (m/s²)²
 
 
 @compiled
@@ -138,8 +157,8 @@ def sums_of(P: Floats) -> Sums:
     a, b, c = SUMS, SUMS + 1, SUMS + 2
     return Sums(
         float(P[a, 0]), float(P[a, 1]), three(P, a, 2), vector(P, a, 11), vector(P, a, 14), float(P[a, 17]),
-        vector(P, a, 18), float(P[a, 21]), float(P[a, 22]), float(P[a, 23]), float(P[a, 24]), vector(P, b, 0),
-        three(P, b, 3), vector(P, b, 12), three(P, c, 0), float(P[c, 9]),
+        vector(P, a, 18), float(P[a, 21]), float(P[a, 22]), float(P[a, 25]), float(P[a, 23]), float(P[a, 24]),
+        vector(P, b, 0), three(P, b, 3), vector(P, b, 12), three(P, c, 0), float(P[c, 9]),
     )  # fmt: skip
 
 
@@ -147,7 +166,7 @@ def sums_of(P: Floats) -> Sums:
 def put_sums(P: Floats, s: Sums) -> None:
     a, b, c = SUMS, SUMS + 1, SUMS + 2
     P[a, 0], P[a, 1], P[a, 17], P[a, 21], P[a, 22] = s.time, s.samples, s.force_time, s.rate_square, s.excess_square
-    P[a, 23], P[a, 24] = s.mags, s.mag_time
+    P[a, 23], P[a, 24], P[a, 25] = s.mags, s.mag_time, s.jump_square
     put_three(P, a, 2, s.rotation)
     put(P, a, 11, s.force)
     put(P, a, 14, s.force_late)
@@ -164,7 +183,7 @@ def sensor_of(P: Floats) -> Sensor:
     r = SENSOR
     return Sensor(
         three(P, r, 0), vector(P, r, 9), vector(P, r, 12), vector(P, r, 15),
-        float(P[r, 18]), float(P[r, 19]), float(P[r, 20]), float(P[r, 21]), float(P[r, 24]),
+        float(P[r, 18]), float(P[r, 19]), float(P[r, 20]), float(P[r, 21]), float(P[r, 24]), vector(P, r, 25), float(P[r, 28]),
     )  # fmt: skip
 
 
@@ -175,7 +194,9 @@ def put_sensor(P: Floats, s: Sensor) -> None:
     put(P, r, 9, s.velocity)
     put(P, r, 12, s.field)
     put(P, r, 15, s.iron)
+    put(P, r, 25, s.acc_bias)
     P[r, 18], P[r, 19], P[r, 20], P[r, 21], P[r, 24] = s.mag_delay, s.acc_delay, s.length, s.spread, s.wander
+    P[r, 28] = s.acc_scale
 
 
 @compiled
