@@ -13,7 +13,7 @@ from poise.data.recording import Recording
 from poise.formats.decisions import Decisions, stacked
 from poise.formats.held import Fresh
 from poise.formats.names import QUAT as QUAT_NAMES
-from poise.formats.names import SENSORS
+from poise.formats.names import SENSORS, listed
 from poise.formats.table import Columns, Floats, Table
 from poise.math import arrays
 
@@ -125,6 +125,8 @@ class Assembler:
         said = [*self._table.notes, *self._made.notes]
         if not self._seen["samples"]["mag"]:
             said.append("no magnetometer: heading is arbitrary")
+        if unused := self._table.layout.unused:
+            said.append(f"not used: {listed(unused)}")
         for sensor, new in self._seen["fresh"].items():
             said.append(
                 f"{sensor}: slower than the gyroscope, each sample was repeated over {self._made.held[sensor]} rows; "

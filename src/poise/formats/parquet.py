@@ -8,7 +8,7 @@ from typing import Any
 
 from poise.data import arrow
 from poise.errors import FormatError
-from poise.formats import names
+from poise.formats import layouts
 from poise.formats.limits import Options, check_expansion
 from poise.formats.table import BLOCK, KIND, Block, Columns, Table, joined, stretches
 
@@ -21,8 +21,8 @@ def read(path: Path, options: Options) -> Table:
         if facts.get(KIND) == "attitude":
             raise FormatError(f"{where}: an attitude that poise wrote, not a recording; read it with read_attitude")
         options.limits.check(where, "columns", len(file.schema_arrow.names))
-        header = names.renamed(where, file.schema_arrow.names, options.columns, len(file.schema_arrow.names))
-        layout = names.choose(where, header, timed=options.rate is not None)
+        header = layouts.renamed(where, file.schema_arrow.names, options.columns, len(file.schema_arrow.names))
+        layout = layouts.choose(where, header, timed=options.rate is not None)
         wanted = {key: file.schema_arrow.names[column.index] for key, column in layout.columns.items()}
         rows = ParquetRows(where, path, file, wanted, options)
     return Table("Parquet", layout, rows, facts, None, "s" if rows.calendar else "", list(layout.notes))

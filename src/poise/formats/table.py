@@ -9,8 +9,8 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from poise.formats.layouts import Layout
 from poise.formats.limits import Limits
-from poise.formats.names import Layout
 
 Floats = NDArray[np.float64]
 Columns = dict[str, Floats]

@@ -10,7 +10,7 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from poise.errors import FormatError
-from poise.formats import names, text_head
+from poise.formats import layouts, text_head
 from poise.formats.limits import Limits, Options
 from poise.formats.table import KIND, STRETCH, STRETCHES, Block, Columns, Table, joined
 from poise.formats.text_head import Dialect
@@ -29,8 +29,8 @@ def read(path: Path, options: Options) -> Table:
         dialect = text_head.inspect(where, head, not file.read(1), options)
     if dialect.facts.get(KIND) == "attitude":
         raise FormatError(f"{where}: an attitude that poise wrote, not a recording; read it with read_attitude")
-    header = names.renamed(where, dialect.names, options.columns, len(dialect.first))
-    layout = names.choose(where, header, timed=options.rate is not None)
+    header = layouts.renamed(where, dialect.names, options.columns, len(dialect.first))
+    layout = layouts.choose(where, header, timed=options.rate is not None)
     columns = {key: column.index for key, column in layout.columns.items()}
     rows = TextRows(where, path, dialect, columns, options.limits)
     rows.notes += [*dialect.notes, *layout.notes]

@@ -15,6 +15,7 @@ from poise.errors import FormatError
 from poise.formats import units
 from poise.formats.limits import Options
 from poise.formats.names import listed, parse
+from poise.formats.names import split as split_name
 
 COMMENTS = ("#", "//", "%")
 MISSING = ("", "nan", "NaN", "NAN", "-nan", "-NaN", "NA", "N/A", "null", "NULL", "None", "none")
@@ -201,4 +202,6 @@ def _names(
 
 
 def _names_columns(cells: list[str], width: int) -> bool:
-    return len(cells) == width and sum(bool(parse(cell).role) for cell in cells) >= 2
+    return (
+        len(cells) == width and sum(bool(parse(cell).role or units.sensor(split_name(cell)[1])) for cell in cells) >= 2
+    )

@@ -51,6 +51,7 @@ _SPELLINGS: dict[str, dict[str, str]] = {
         AS_FOUND: "a.u. au a.u arb arb. raw counts normalized normalised 1 lsb",
     },
 }
+_BY_CASE = {"g": "acc", "mg": "acc", "mG": "mag"}  # a G alone is written for both
 _WORDS = {
     sensor: {word: unit for unit, words in table.items() for word in words.split()}
     | {unit.lower().replace("µ", "u").replace("²", "2"): unit for unit in table}
@@ -70,6 +71,12 @@ def expect(sensor: str, text: str, where: str) -> str:
         known = ", ".join(FACTORS[sensor])
         raise FormatError(f"{where}: unit {text!r} of {sensor} not understood; expected one of {known}")
     return unit
+
+
+def sensor(text: str) -> str:
+    """The one sensor (or "time") whose unit *text* is; "" where it is none's, or may be that of two."""
+    found = [name for name in FACTORS if named(name, text) not in (None, AS_FOUND)]
+    return found[0] if len(found) == 1 else _BY_CASE.get(text.strip(), "")
 
 
 def is_unit(text: str) -> bool:

@@ -1,0 +1,99 @@
+"""Which column is what: by words, by units, and what is said of the others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from poise.errors import FormatError
+from poise.formats import read, sniff
+
+USUAL = "time (s),gx (rad/s),gy,gz,ax (m/s2),ay,az"
+Writer = Callable[..., Path]
+
+
+@pytest.fixture
+def made(tmp_path: Path) -> Writer:
+    """Write a table with *header*: time, gyr, acc and then *more* columns, one number or text each."""
+
+    def write(header: str, *more: object, rows: int = 20) -> Path:
+        path = tmp_path / "log.csv"
+        lines = [
+            ",".join([f"{i * 0.01:.2f}", "0.5", f"{i}.25", "-0.3", "0.5", "-0.25", "9.75", *map(str, more)])
+            for i in range(rows)
+        ]
+        path.write_text("\n".join([header, *lines, ""]))
+        return path
+
+    return write
+
+
+@pytest.mark.parametrize("names", ["hx,hy,hz", "magneto_1,magneto_2,magneto_3", "Roll,Pitch,Yaw", "device_id,label,n"])
+def test_what_is_not_used_is_said(made: Writer, names: str) -> None:
+    path = made(f"{USUAL},{names}", 1, 2, 3)
+    notes = read(path).notes
+    assert notes[-2:] == ("no magnetometer: heading is arbitrary", f"not used: {names.replace(',', ', ')}")
+    assert sniff(path).notes == notes
+    skipped = read(path, columns=",".join(f"{name}=-" for name in names.split(",")))
+    assert not any("not used" in note for note in skipped.notes)  # the caller knows
+
+
+def test_of_many_that_are_not_used_some_are_named(made: Writer) -> None:
+    names = [f"extra{i}" for i in range(30)]
+    assert read(made(f"{USUAL},{','.join(names)}", *range(30))).notes[-1].endswith("extra11 and 18 more")
+
+
+def test_what_is_said_of_a_column_is_said_once(made: Writer) -> None:
+    header = f"{USUAL},elapsed,linear_acceleration_x,linear_acceleration_y,linear_acceleration_z,qw,qx,qy,qz"
+    assert not any("not used" in note for note in read(made(header, *range(8))).notes)
+
+
+def test_arrays_that_are_not_used_are_said(tmp_path: Path) -> None:
+    path = tmp_path / "a.npz"
+    rows = np.tile([0.0, 0.0, 9.8], (50, 1))
+    np.savez(path, time=np.arange(50) / 100, gyr=rows, acc=rows, pressure=np.ones(50), count=7)
+    assert read(path, units={"gyr": "rad/s"}).notes[-1] == "not used: pressure, count"
+
+
+@pytest.mark.parametrize("unit", ["uT", "µT", "gauss", "mG", "nT"])
+@pytest.mark.parametrize("names", [("Bx", "By", "Bz"), ("field_z", "field_y", "field_x")])
+def test_a_unit_that_only_magnetometers_have(made: Writer, names: tuple[str, ...], unit: str) -> None:
+    recording = read(made(f"{USUAL},{','.join(f'{name} ({unit})' for name in names)}", 20, 1, -40))
+    factor = {"gauss": 100, "mG": 0.1, "nT": 1e-3}.get(unit, 1.0)
+    wanted = [20, 1, -40] if names[0] == "Bx" else [-40, 1, 20]
+    np.testing.assert_allclose(recording.mag, np.tile(wanted, (20, 1)) * factor)
+    assert any(note.startswith("mag: columns ") and note.endswith("known by their unit") for note in recording.notes)
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        "Bx (uT),By (uT),Bz (uT),Cx (uT),Cy (uT),Cz (uT)",  # which of the two?
+        "bias_x (uT),bias_y (uT),bias_z (uT)",
+        "Bx (uT),By (uT),Bw (uT)",
+        "Bx (uT),By (mT),Bz (uT)",
+        "Bx (uT),n,By (uT),Bz (uT)",
+        "hx (G),hy (G),hz (G)",  # gauss, or g
+    ],
+)
+def test_a_unit_that_settles_nothing(made: Writer, names: str) -> None:
+    recording = read(made(f"{USUAL},{names}", *range(names.count(",") + 1)))
+    assert not recording.has_mag and recording.notes[-1] == f"not used: {names.replace(',', ', ')}"
+
+
+def test_gravity_is_no_accelerometer(made: Writer) -> None:
+    header = "time (s),gx (rad/s),gy,gz,gravity_x (m/s2),gravity_y (m/s2),gravity_z (m/s2)"
+    with pytest.raises(FormatError, match="no column for acc_x, acc_y, acc_z"):
+        read(made(header))
+
+
+def test_names_in_a_comment_that_only_units_explain(made: Writer) -> None:
+    axes = [f"{letter}_RS_S_{axis} [{unit}]" for letter, unit in (("w", "rad s^-1"), ("a", "m s^-2")) for axis in "xyz"]
+    path = made(f"#timestamp [s],{','.join(axes)}")
+    recording, sniffed = read(path), sniff(path)
+    np.testing.assert_array_equal(recording.gyr[3], [0.5, 3.25, -0.3])
+    np.testing.assert_array_equal(recording.acc, np.tile([0.5, -0.25, 9.75], (20, 1)))
+    assert [sniffed.columns[f"{sensor}_{axis}"] for sensor in ("gyr", "acc") for axis in "xyz"] == axes
