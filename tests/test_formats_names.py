@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from poise.errors import FormatError
-from poise.formats import read, sniff
+from poise.formats import read, read_chunks, sniff
 
 USUAL = "time (s),gx (rad/s),gy,gz,ax (m/s2),ay,az"
 Writer = Callable[..., Path]
@@ -97,3 +97,49 @@ def test_names_in_a_comment_that_only_units_explain(made: Writer) -> None:
     np.testing.assert_array_equal(recording.gyr[3], [0.5, 3.25, -0.3])
     np.testing.assert_array_equal(recording.acc, np.tile([0.5, -0.25, 9.75], (20, 1)))
     assert [sniffed.columns[f"{sensor}_{axis}"] for sensor in ("gyr", "acc") for axis in "xyz"] == axes
+
+
+@pytest.mark.parametrize("name", ["device", "device_id", "DeviceName", "sensor_id", "tag", "MAC", "node", "imuId"])
+def test_several_devices_in_one_file_are_refused(made: Writer, tmp_path: Path, name: str) -> None:
+    one = made(f"{USUAL},{name}", "left").read_text()
+    path = tmp_path / "two.csv"
+    header, _, rows = one.partition("\n")
+    other = rows.replace("left", " right ")
+    interleaved = "".join(a + b for a, b in zip(rows.splitlines(True), other.splitlines(True), strict=True))
+    for content in (rows + other, interleaved):
+        path.write_text(f"{header}\n{content}")
+        for use in (read, lambda path: list(read_chunks(path, 7))):
+            reason = rf"column '{name}' names 2 devices \(left, right\).*split the file.*--columns {name}=-"
+            with pytest.raises(FormatError, match=reason):
+                use(path)
+        assert len(read(path, columns=f"{name}=-")) == 40
+    path.write_text(f"{header}\n{rows}" + rows.replace("left", ""))
+    assert f"not used: {name}" in read(path).notes  # no second one is named
+
+
+@pytest.mark.parametrize("name", ["activity", "label", "subject", "id", "class", "marker"])
+def test_what_names_no_device_may_change(made: Writer, name: str) -> None:
+    path = made(f"{USUAL},{name}", "walk")
+    path.write_text(path.read_text() + path.read_text().partition("\n")[2].replace("walk", "run"))
+    assert len(read(path)) == 40
+
+
+def test_a_count_is_no_device(made: Writer) -> None:
+    path = made(f"{USUAL},node", "NUMBER", rows=200)
+    for i in range(200):
+        path.write_text(path.read_text().replace("NUMBER", str(i), 1))
+    assert len(read(path)) == 200
+
+
+def test_several_devices_in_parquet_and_npz(tmp_path: Path) -> None:
+    from pyarrow import csv, parquet
+
+    path = tmp_path / "a.csv"
+    names = f"{USUAL},device_id"
+    path.write_text(f"{names}\n" + "".join(f"{i / 100},1,2,3,0,0,9.8,{7 + i // 15}\n" for i in range(30)))
+    parquet.write_table(csv.read_csv(path), tmp_path / "a.parquet", row_group_size=10)
+    rows = np.tile([0.0, 0.0, 9.8], (30, 1))
+    np.savez(tmp_path / "a.npz", time=np.arange(30) / 100, gyr=rows, acc=rows, device_id=7 + np.arange(30) // 15)
+    for kind in ("csv", "parquet", "npz"):
+        with pytest.raises(FormatError, match=r"'device_id' names 2 devices \(7, 8\)"):
+            read(tmp_path / f"a.{kind}")

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from poise.errors import FormatError
 from poise.formats import layouts, names
+from poise.formats.devices import Devices
 from poise.formats.limits import Options
 from poise.formats.table import Table, Whole
 
@@ -30,7 +31,9 @@ def to_table(where: str, kind: str, found: dict[str, NDArray[Any]], options: Opt
             value = float(array.reshape(-1)[0])
             rate = value if role == "rate" else 1.0 / value if value > 0 else float("nan")
             continue
-        if not role or role in ("rate", "period"):
+        if role == "device":
+            Devices(where, [title]).see(title, {f"{value:g}" for value in np.unique(array[np.isfinite(array)])})
+        if not role or role in ("rate", "period", "device"):
             unused.append(title)
             continue
         array = np.squeeze(array) if array.size != 1 else array.reshape(1)

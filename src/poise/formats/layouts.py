@@ -34,6 +34,8 @@ class Layout:
     notes: tuple[str, ...] = ()
     unused: tuple[str, ...] = ()
     """columns that nothing else is said about"""
+    devices: tuple[Column, ...] = ()
+    """columns that name the device a row is of"""
 
     def unit(self, sensor: str) -> str:
         """The unit that the names of *sensor*'s columns carry, as written; "" where they carry none."""
@@ -74,7 +76,7 @@ def choose(where: str, names: Sequence[str], timed: bool = False) -> Layout:
     fields = [parse(name) for name in names]
     notes = _by_unit(names, fields)
     for index, (name, parsed) in enumerate(zip(names, fields, strict=True)):
-        if not parsed.role:
+        if not parsed.role or parsed.role == "device":
             continue
         rivals.setdefault(parsed.role, []).append(name)
         other = found.get(parsed.role)
@@ -98,7 +100,8 @@ def choose(where: str, names: Sequence[str], timed: bool = False) -> Layout:
     said = (*used, "free_", "quat_")
     indices = {column.index for column in used.values()}
     unused = [n for i, n in enumerate(names) if n and i not in indices and not fields[i].role.startswith(said)]
-    return Layout(used, tuple(notes), tuple(unused))
+    devices = tuple(Column(i, names[i], "") for i, field in enumerate(fields) if field.role == "device")
+    return Layout(used, tuple(notes), tuple(unused), devices)
 
 
 def _by_unit(names: Sequence[str], fields: list[Field]) -> list[str]:

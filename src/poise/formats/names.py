@@ -31,6 +31,11 @@ _TIMES_IN = {"millis": "ms", "milliseconds": "ms", "micros": "us", "microseconds
 _RATES = ("fs", "sr", "hz", "rate", "freq", "frequency", "samplerate", "samplingrate", "samplingfrequency")
 _PERIODS = ("dt", "sampleperiod", "samplingperiod")
 _NOISE = {"imu", "sensor", "sensors", "field", "device", "phone", "watch", "motion", "raw", "cal", "calibrated", "data"}
+_THINGS, _LABELS = (
+    ("device", "sensor", "imu", "node", "tag", "mac"),
+    ("", "id", "name", "tag", "address", "mac", "number"),
+)
+_DEVICES = {thing + label for thing in _THINGS for label in _LABELS} - {"sensor"}  # which alone may be a reading
 _QUAT = re.compile(r"(?:(truth|ref|reference|opt|optical)_)?(?:q|quat|quaternion|orientation)(?:_q)?_?([wxyz0-3])?")
 _LONGEST = 200  # characters of a name that are looked at
 _TOKEN = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z0-9]+|[A-Z]")
@@ -41,7 +46,7 @@ class Field(NamedTuple):
     """What one name says: its role, the unit it carries (as written, or "") and how little it is preferred."""
 
     role: str
-    """"time", "gyr_x", "gyr" (all three axes), "free_x", "truth_qw", "quat_qw", "moving", "rate", …; "" is unknown"""
+    """"time", "gyr_x", "gyr" (all three axes), "free_x", "truth_qw", "quat_qw", "moving", "rate", "device", …; "" is unknown"""
     unit: str = ""
     rank: int = 0
     word: str = ""
@@ -53,6 +58,8 @@ def parse(name: str) -> Field:
     tokens = words(text)
     if "_".join(tokens) in ("acc_age", "mag_age"):
         return Field("_".join(tokens), unit)
+    if "".join(tokens) in _DEVICES:
+        return Field("device")
     rank = len(tokens)
     while tokens and tokens[0] in _NOISE and len(tokens) > 1:
         tokens = tokens[1:]

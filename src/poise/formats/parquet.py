@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 from poise.data import arrow
 from poise.errors import FormatError
 from poise.formats import layouts
+from poise.formats.devices import Devices
 from poise.formats.limits import Options, check_expansion
 from poise.formats.table import BLOCK, KIND, Block, Columns, Table, joined, stretches
 
@@ -24,7 +25,8 @@ def read(path: Path, options: Options) -> Table:
         header = layouts.renamed(where, file.schema_arrow.names, options.columns, len(file.schema_arrow.names))
         layout = layouts.choose(where, header, timed=options.rate is not None)
         wanted = {key: file.schema_arrow.names[column.index] for key, column in layout.columns.items()}
-        rows = ParquetRows(where, path, file, wanted, options)
+        devices = [file.schema_arrow.names[column.index] for column in layout.devices]
+        rows = ParquetRows(where, path, file, wanted, options, devices)
     return Table("Parquet", layout, rows, facts, None, "s" if rows.calendar else "", list(layout.notes))
 
 
@@ -52,10 +54,19 @@ class ParquetRows:
     Raises :class:`FormatError` where the footer promises more than there can be, or a column holds no numbers.
     """
 
-    def __init__(self, where: str, path: Path, file: Any, wanted: dict[str, str], options: Options) -> None:
+    def __init__(
+        self,
+        where: str,
+        path: Path,
+        file: Any,
+        wanted: dict[str, str],
+        options: Options,
+        devices: Sequence[str] = (),
+    ) -> None:
         import pyarrow
 
         self._where, self._path, self._wanted = where, path, wanted
+        self._devices = Devices(where, devices)
         self.count = int(file.metadata.num_rows)
         if self.count <= 0:
             raise FormatError(f"{where}: no rows")
@@ -112,10 +123,12 @@ class ParquetRows:
             raise FormatError(f"{self._where}: damaged Parquet file ({_short(problem)}); {advice}") from None
 
     def _group(self, file: Any, group: int, start: int, parts: list[slice]) -> Iterator[Block]:
-        names = list(self._wanted.values())
+        names = [*self._wanted.values(), *self._devices.columns]
         for batch in file.iter_batches(BLOCK, row_groups=[group], columns=names, use_threads=False):
             end = start + batch.num_rows
             if any(part.start < end and part.stop > start for part in parts):
+                for name in self._devices.columns:
+                    self._devices.see(name, arrow.different(batch.column(name)))
                 columns = {key: arrow.floats(batch.column(name)) for key, name in self._wanted.items()}
                 yield Block((start,), columns)
             start = end

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import codecs
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from poise.errors import FormatError
 from poise.formats import layouts, text_head
+from poise.formats.layouts import Column
 from poise.formats.limits import Limits, Options
 from poise.formats.table import KIND, STRETCH, STRETCHES, Block, Columns, Table, joined
 from poise.formats.text_head import Dialect
@@ -32,7 +33,7 @@ def read(path: Path, options: Options) -> Table:
     header = layouts.renamed(where, dialect.names, options.columns, len(dialect.first))
     layout = layouts.choose(where, header, timed=options.rate is not None)
     columns = {key: column.index for key, column in layout.columns.items()}
-    rows = TextRows(where, path, dialect, columns, options.limits)
+    rows = TextRows(where, path, dialect, columns, options.limits, layout.devices)
     rows.notes += [*dialect.notes, *layout.notes]
     calendar = "s" if dialect.iso(columns.get("time")) else ""
     return Table(dialect.sentence, layout, rows, dialect.facts, None, calendar, rows.notes, rows.doubts)
@@ -45,9 +46,17 @@ class TextRows:
     reason where a row is not right.
     """
 
-    def __init__(self, where: str, path: Path, dialect: Dialect, columns: dict[str, int], limits: Limits) -> None:
+    def __init__(
+        self,
+        where: str,
+        path: Path,
+        dialect: Dialect,
+        columns: dict[str, int],
+        limits: Limits,
+        devices: Sequence[Column] = (),
+    ) -> None:
         self._where, self._path, self._dialect, self._limits = where, path, dialect, limits
-        self._parser = Parser(where, dialect, columns)
+        self._parser = Parser(where, dialect, columns, devices)
         self._kept: list[Block] | None = None  # a small file is parsed once, for sample and rows
         self.notes: list[str] = []
         self.doubts: list[str] = []

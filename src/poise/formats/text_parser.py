@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import io
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from poise.data import arrow
 from poise.errors import FormatError
 from poise.formats import text_head
+from poise.formats.devices import Devices
+from poise.formats.layouts import Column
 from poise.formats.table import Columns
 from poise.formats.text_head import Dialect
 
@@ -25,8 +28,12 @@ class Parser:
     where: str
     dialect: Dialect
     columns: dict[str, int]
+    devices: Sequence[Column] = ()
     _above: list[bytes] = field(default_factory=list)
     """the last lines that were parsed"""
+
+    def __post_init__(self) -> None:
+        self._seen = Devices(self.where, [column.name for column in self.devices])
 
     def rows(self, line: int, block: bytes) -> Columns | None:
         """The wanted columns of one block; None where it holds no row."""
@@ -48,6 +55,8 @@ class Parser:
             expected -= len(re.findall(rb"(?m)^\n", block))
             if table.num_rows != expected:
                 self._refuse(line, block, f"{expected} lines gave {table.num_rows} rows")
+        for column in self.devices:
+            self._seen.see(column.name, arrow.different(table.column(f"c{column.index}")) - set(text_head.MISSING))
         return {key: arrow.floats(table.column(f"c{index}")) for key, index in self.columns.items()}
 
     def _parse(self, block: bytes) -> Any:
@@ -55,7 +64,8 @@ class Parser:
         from pyarrow import csv
 
         width = [f"c{i}" for i in range(len(self.dialect.first))]
-        types: dict[str, Any] = {f"c{index}": pyarrow.float64() for index in self.columns.values()}
+        types: dict[str, Any] = {f"c{column.index}": pyarrow.binary() for column in self.devices}
+        types |= {f"c{index}": pyarrow.float64() for index in self.columns.values()}
         time = self.columns.get("time")
         if time is not None and self.dialect.iso(time):
             zoned = not re.search(r"\d$", cell := self.dialect.first[time]) or bool(re.search(r":\d\d.*[+-]\d\d", cell))

@@ -1,0 +1,34 @@
+"""Rows of several devices in one file: no attitude can be made of them together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from poise.errors import FormatError
+from poise.formats.names import listed
+
+_MOST = 100  # values: a column of more counts or measures something
+
+
+class Devices:
+    """The values seen in columns that are named as devices are, block after block; *columns* are those names."""
+
+    def __init__(self, where: str, columns: Sequence[str] = ()) -> None:
+        self._where = where
+        self._seen: dict[str, set[str]] = {name: set() for name in columns}
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The names of the columns whose values are asked for."""
+        return tuple(self._seen)
+
+    def see(self, column: str, values: Iterable[str]) -> None:
+        """Raises :class:`FormatError` where the different *values* of a block and those before are not one device's."""
+        seen = self._seen[column]
+        if len(seen) <= _MOST:
+            seen.update(value for value in values if value)
+        if 1 < len(seen) <= _MOST:
+            raise FormatError(
+                f"{self._where}: column {column!r} names {len(seen)} devices ({listed(sorted(seen), 6)}), and an attitude "
+                f"is of one: split the file by it, or, where it names none, leave it out: --columns {column}=-"
+            )
