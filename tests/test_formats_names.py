@@ -143,3 +143,43 @@ def test_several_devices_in_parquet_and_npz(tmp_path: Path) -> None:
     for kind in ("csv", "parquet", "npz"):
         with pytest.raises(FormatError, match=r"'device_id' names 2 devices \(7, 8\)"):
             read(tmp_path / f"a.{kind}")
+
+
+def clocks(path: Path, *columns: tuple[str, Callable[[int], float]], rows: int = 40) -> Path:
+    """A table of a sensor at rest with the clocks *columns*: name, and stamp by row."""
+    lines = [
+        ",".join(["0.1", "0", "0", "0", "0", "9.8", *(f"{stamp(i):.12g}" for _, stamp in columns)]) for i in range(rows)
+    ]
+    names = ",".join(["gx (rad/s),gy,gz,ax (m/s2),ay,az", *(name for name, _ in columns)])
+    path.write_text("\n".join([names, *lines, ""]))
+    return path
+
+
+@pytest.mark.parametrize("name", ["millis", "micros", "Timestamp", "elapsed", "SampleTimeFine"])
+@pytest.mark.parametrize("letter", ["T", "T (C)", "T(°)"])
+def test_a_capital_t_may_be_a_temperature(tmp_path: Path, name: str, letter: str) -> None:
+    path = clocks(tmp_path / "a.csv", (letter, lambda i: 25 + i / 10), (name, lambda i: 10_000.0 * i))
+    sniffed = sniff(path, units={"time": "us"})
+    assert sniffed.columns["time"] == name
+
+
+def test_a_letter_alone_is_time_unless_its_unit_is_another(tmp_path: Path) -> None:
+    for letter in ("t", "T", "T (s)", "t [ms]"):
+        scale = 10.0 if "ms" in letter else 0.01
+        path = clocks(tmp_path / "a.csv", (letter, lambda i, scale=scale: i * scale))
+        assert read(path).rate_hz == pytest.approx(100)
+    with pytest.raises(FormatError, match="no time column among"):
+        read(clocks(tmp_path / "a.csv", ("T (C)", lambda i: 25 + i / 10)))
+    with pytest.raises(FormatError, match="unit 'moons' of time not understood"):
+        read(clocks(tmp_path / "a.csv", ("time (moons)", lambda i: i / 100)))
+
+
+@pytest.mark.parametrize(
+    ("step", "unit", "hz"),
+    [(35, "100us", 285.7), (100, "100us", 100), (250, "100us", 40), (16_667, "us", 60), (8_333, "us", 120)],
+)
+def test_xsens_ticks_of_100_microseconds(tmp_path: Path, step: int, unit: str, hz: float) -> None:
+    path = clocks(tmp_path / "a.csv", ("SampleTimeFine", lambda i: 5e6 + step * i))
+    assert sniff(path).sensors["time"].unit == unit and read(path).rate_hz == pytest.approx(hz, rel=1e-3)
+    other = clocks(tmp_path / "b.csv", ("time", lambda i: 35.0 * i))
+    assert sniff(other).sensors["time"].unit == "ms"  # no other clock counts so

@@ -9,13 +9,14 @@ import numpy as np
 from poise.data.recording import STANDARD_GRAVITY, check_unit_of_time
 from poise.data.stamps import Packed, packed, usual_step
 from poise.errors import FormatError
-from poise.formats import evidence, units
+from poise.formats import evidence, names, units
 from poise.formats.evidence import Verdict
 from poise.formats.held import usual_distance
 from poise.formats.limits import Options
 from poise.formats.names import SENSORS
 from poise.formats.table import Columns, Floats, Table
 
+_TICKS = {"sampletimefine": "100us"}  # clocks that count in a unit of their own, or in a usual one (Xsens, Movella)
 _FREE = 3.0  # m/s²: no accelerometer on Earth shows less by its median
 
 
@@ -99,7 +100,8 @@ def _time(where: str, table: Table, sample: Columns, options: Options, made: Dec
         made.unit["time"], made.how["time"], made.rate = "s", f"from the rate of {rate:g} Hz", rate
         return np.asarray(np.arange(len(sample["gyr_x"])) / rate)
     stated, how = _stated(where, "time", table, options)
-    verdict = evidence.of_time(stamps)
+    column = table.layout.columns.get("time")
+    verdict = evidence.of_time(stamps, _TICKS.get(names.parse(column.name).word, "") if column else "")
     if not stated and not verdict.unit and len(stamps) > 1 and not options.as_is:
         raise FormatError(
             f"{where}: unit of time not named, and {verdict.sentence}; say it: --units time=s (or ms, us, ns, 100us)"
@@ -122,6 +124,8 @@ def _stated(where: str, sensor: str, table: Table, options: Options) -> tuple[st
     """The unit that the caller or the file names for *sensor*, and which of them; empty where neither does."""
     if sensor in options.units:
         return units.expect(sensor, options.units[sensor], where), "given"
+    if sensor == "time" and table.time_unit:
+        return table.time_unit, "calendar stamps"
     if text := table.layout.unit(sensor):
         if unit := units.named(sensor, text):
             return unit, "named by the file"
@@ -131,8 +135,8 @@ def _stated(where: str, sensor: str, table: Table, options: Options) -> tuple[st
                 f"{' or '.join(list(units.FACTORS[sensor])[:3])}"
             )
     if table.own:
-        return ("s" if sensor == "time" else units.SI[sensor]), "written by poise"
-    return (table.time_unit, "calendar stamps") if sensor == "time" and table.time_unit else ("", "")
+        return units.SI[sensor], "written by poise"
+    return "", ""
 
 
 def _sensor(

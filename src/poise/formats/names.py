@@ -50,6 +50,7 @@ class Field(NamedTuple):
     unit: str = ""
     rank: int = 0
     word: str = ""
+    """what names the sensor, or time"""
 
 
 def parse(name: str) -> Field:
@@ -65,7 +66,19 @@ def parse(name: str) -> Field:
         tokens = tokens[1:]
     while len(tokens) > 1 and tokens[-1] in _NOISE:
         tokens = tokens[:-1]
-    return _other(tokens, unit) or _sensor(tokens, unit, rank - len(tokens)) or Field("")
+    found = _other(tokens, unit) or _sensor(tokens, unit, rank - len(tokens)) or Field("")
+    return _stamps(found, text) if found.role == "time" else found
+
+
+def _stamps(field: Field, text: str) -> Field:
+    """A time column behind all others where it may be something else: a capital T is a temperature, too.
+
+    A unit that is none of time says so of a single letter; of a word it may be how a calendar stamp is written (UTC).
+    """
+    foreign = bool(field.unit) and units.named("time", field.unit) is None
+    if foreign and field.word == "t":
+        return Field("")
+    return field._replace(rank=field.rank + len(_TIMES) + 1) if foreign or text == "T" else field
 
 
 def split(name: str) -> tuple[str, str]:
@@ -95,11 +108,11 @@ def _other(tokens: list[str], unit: str) -> Field | None:
     if joined in _RATES or joined in _PERIODS:
         return Field("rate" if joined in _RATES else "period", unit)
     if joined in _TIMES_IN:
-        return Field("time", unit or _TIMES_IN[joined], len(_TIMES))
+        return Field("time", unit or _TIMES_IN[joined], len(_TIMES), joined)
     for cut in range(len(tokens), 0, -1):
         word, rest = "".join(tokens[:cut]), "".join(tokens[cut:])
         if word in _TIMES and (not rest or units.named("time", rest)):
-            return Field("time", unit or rest, _TIMES.index(word))
+            return Field("time", unit or rest, _TIMES.index(word), word)
     return None
 
 
