@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from poise.data.recording import STANDARD_GRAVITY, check_unit_of_time
-from poise.data.stamps import Packed, packed, usual_step
+from poise.data.stamps import Packed, Turns, packed, usual_step
 from poise.errors import FormatError
 from poise.formats import evidence, names, units
 from poise.formats.evidence import Verdict
@@ -17,6 +17,7 @@ from poise.formats.names import SENSORS
 from poise.formats.table import Columns, Floats, Table
 
 _TICKS = {"sampletimefine": "100us"}  # clocks that count in a unit of their own, or in a usual one (Xsens, Movella)
+_BITS = (16, 32)  # of counters that begin anew
 _FREE = 3.0  # m/s²: no accelerometer on Earth shows less by its median
 
 
@@ -36,6 +37,8 @@ class Decisions:
     """how rows came that have no stamp of their own"""
     held: dict[str, int] = field(default_factory=dict)
     """sensors whose samples are repeated, and over how many rows"""
+    ends: tuple[float, ...] = ()
+    """at which the stamps may begin anew, in their own unit"""
     gravity: float = STANDARD_GRAVITY
     notes: list[str] = field(default_factory=list)
     doubts: list[str] = field(default_factory=list)
@@ -43,6 +46,10 @@ class Decisions:
     def factor(self, sensor: str) -> float:
         """What one unit of the file is in SI (µT for the magnetometer)."""
         return units.FACTORS[sensor][self.unit[sensor]]
+
+    def turns(self) -> Turns:
+        """What makes stamps that begin anew go on; in the file's unit, from the first row on."""
+        return Turns(self.ends, most=self.gap * self.factor("time"))
 
     @property
     def gap(self) -> float:
@@ -63,6 +70,8 @@ def decide(where: str, table: Table, options: Options) -> Decisions:
     made = Decisions()
     time = _time(where, table, sample, options, made)
     made.step, made.packets = usual_step(time), packed(time)
+    if made.rate is None and not table.own:
+        made.ends = _ends(sample["time"])
     if made.packets is not None:
         made.doubts.append(f"time: packets of {made.packets.words}, taken to be evenly apart")
     rows = {sensor: stacked(sample, sensor) for sensor in SENSORS if f"{sensor}_x" in sample}
@@ -118,6 +127,14 @@ def _time(where: str, table: Table, sample: Columns, options: Options, made: Dec
         made.notes.append(f"time: taken as {unit}, because {how}")
     made.unit["time"], made.how["time"] = unit, how or "assumed"
     return stamps / units.FACTORS["time"][unit]
+
+
+def _ends(stamps: Floats) -> tuple[float, ...]:
+    """Where a counter with the whole *stamps* (n,) of a sample may begin anew: behind its highest number."""
+    known = stamps[np.isfinite(stamps)]
+    if not len(known) or known.min() < 0.0 or (known != np.floor(known)).any():
+        return ()
+    return tuple(float(2**bits) for bits in _BITS if known.max() < 2**bits)
 
 
 def _stated(where: str, sensor: str, table: Table, options: Options) -> tuple[str, str]:
