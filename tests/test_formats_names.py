@@ -183,3 +183,57 @@ def test_xsens_ticks_of_100_microseconds(tmp_path: Path, step: int, unit: str, h
     assert sniff(path).sensors["time"].unit == unit and read(path).rate_hz == pytest.approx(hz, rel=1e-3)
     other = clocks(tmp_path / "b.csv", ("time", lambda i: 35.0 * i))
     assert sniff(other).sensors["time"].unit == "ms"  # no other clock counts so
+
+
+SHIMMER = [
+    "Timestamp_Unix_CAL",
+    *[f"{sensor}_{axis}_CAL" for sensor in ("Accel_LN", "Gyro", "Mag") for axis in "XYZ"],
+]
+
+
+def exported(path: Path, columns: list[str], units: list[str], first: str) -> Path:
+    """Names that share a device's, a row of units and tabs."""
+    names = "\t".join(f"Unit_8A4B_{name}" for name in columns)
+    values = ["0.5", "-0.25", "9.75", "1", "2", "3", "0.1", "0.2", "0.3"][: len(columns) - 1]
+    rows = ["\t".join([f"{1.7e12 + 10 * i:.6f}", *values]) for i in range(20)]
+    head = [first, names, "\t".join(units)] if first else [names]
+    path.write_text("\n".join([*head, *rows, ""]))
+    return path
+
+
+@pytest.mark.parametrize("acc", ["m/(s^2)", "m/s^2", "[m/s^2]", "(m/(s^2))"])
+@pytest.mark.parametrize("mag", ["local_flux", "uT", ""])
+def test_names_that_share_a_devices_above_units(tmp_path: Path, acc: str, mag: str) -> None:
+    path = exported(tmp_path / "a.csv", SHIMMER, ["ms", *[acc] * 3, *["deg/s"] * 3, *[mag] * 3], "sep=\t")
+    recording, sniffed = read(path), sniff(path)
+    np.testing.assert_allclose(recording.time, 1.7e9 + np.arange(20) / 100, atol=1e-6, rtol=0)
+    np.testing.assert_array_equal(recording.acc, np.tile([0.5, -0.25, 9.75], (20, 1)))
+    np.testing.assert_allclose(recording.gyr, np.tile(np.deg2rad([1, 2, 3]), (20, 1)))
+    np.testing.assert_array_equal(recording.mag, np.tile([0.1, 0.2, 0.3], (20, 1)))
+    assert sniffed.columns["gyr_x"] == "Unit_8A4B_Gyro_X_CAL (deg/s)"
+    assert sniffed.sensors["mag"].unit == ("µT" if mag == "uT" else "as found")
+
+
+def test_units_in_the_names_and_of_what_is_not_read(tmp_path: Path) -> None:
+    units = ["ms", *["m/(s^2)"] * 3, *["deg/s"] * 3]
+    columns = [f"{name} ({unit})" for name, unit in zip(SHIMMER, units, strict=False)]
+    assert len(read(exported(tmp_path / "a.csv", columns, [], ""))) == 20
+    names = [*SHIMMER[:7], "Battery", "State"]
+    recording = read(exported(tmp_path / "b.csv", names, [*units, "mV", "no_units"], "sep=\t"))
+    assert "not used: Unit_8A4B_Battery (mV), Unit_8A4B_State (no_units)" in recording.notes
+
+
+def test_of_two_accelerometers_by_their_units_none_is_taken(tmp_path: Path) -> None:
+    columns = [*SHIMMER[:7], *[f"Accel_WR_{axis}_CAL" for axis in "XYZ"]]
+    units = ["ms", *["m/(s^2)"] * 3, *["deg/s"] * 3, *["m/(s^2)"] * 3]
+    path = exported(tmp_path / "a.csv", columns, units, "sep=\t")
+    with pytest.raises(FormatError, match="no column for acc_x, acc_y, acc_z among"):
+        read(path)
+    chosen = ",".join(f"Unit_8A4B_Accel_LN_{axis}_CAL (m/s^2)=acc_{axis.lower()}[m/s2]" for axis in "XYZ")
+    assert len(read(path, columns=chosen)) == 20
+
+
+def test_a_second_device_beside_usual_names_is_not_used(made: Writer) -> None:
+    names = [f"left_{name}" for name in ("gx", "gy", "gz", "ax", "ay", "az")]
+    recording = read(made(f"{USUAL},{','.join(names)}", *range(6)))
+    assert recording.notes[-1] == f"not used: {', '.join(names)}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 
 from poise.errors import FormatError
 from poise.formats import units
@@ -73,7 +74,7 @@ def choose(where: str, names: Sequence[str], timed: bool = False) -> Layout:
     """
     found: dict[str, tuple[Field, Column]] = {}
     rivals: dict[str, list[str]] = {}
-    fields = [parse(name) for name in names]
+    fields = _parsed(names)
     notes = _by_unit(names, fields)
     for index, (name, parsed) in enumerate(zip(names, fields, strict=True)):
         if not parsed.role or parsed.role == "device":
@@ -102,6 +103,20 @@ def choose(where: str, names: Sequence[str], timed: bool = False) -> Layout:
     unused = [n for i, n in enumerate(names) if n and i not in indices and not fields[i].role.startswith(said)]
     devices = tuple(Column(i, names[i], "") for i, field in enumerate(fields) if field.role == "device")
     return Layout(used, tuple(notes), tuple(unused), devices)
+
+
+def _parsed(names: Sequence[str]) -> list[Field]:
+    """What *names* say; where none is a gyroscope's, without the words that all of them begin with, a device's name."""
+    fields = [parse(name) for name in names]
+    unknown = [name for name, field in zip(names, fields, strict=True) if name and not field.role]
+    same = takewhile(lambda letters: len(set(letters)) == 1, zip(*unknown, strict=False))
+    common = "".join(letters[0] for letters in same)
+    prefix = common[: max(common.rfind(mark) for mark in "_./: ") + 1]
+    if not prefix or any(field.role.startswith("gyr") for field in fields):
+        return fields
+    return [
+        field if field.role else parse(name.removeprefix(prefix)) for name, field in zip(names, fields, strict=True)
+    ]
 
 
 def _by_unit(names: Sequence[str], fields: list[Field]) -> list[str]:

@@ -24,7 +24,7 @@ _ROLES = {word: role for role, words in _WORDS.items() for word in words.split()
 _LETTERS = {"g": "gyr", "w": "gyr", "a": "acc", "m": "mag"}  # only together with an axis: gx, wx, ax, mx
 _TIMES_WORDS = (
     "time timestamp timestamps t secondselapsed elapsedtime timeelapsed elapsed headerstamp stamp seconds secs sec "
-    "unixtime unixtimestamp epochtime epoch datetime utc loggingtime sampletime sampletimefine"
+    "unixtime unixtimestamp epochtime epoch datetime utc loggingtime sampletime sampletimefine timestampunix"
 )
 _TIMES = _TIMES_WORDS.split()  # the first is preferred
 _TIMES_IN = {"millis": "ms", "milliseconds": "ms", "micros": "us", "microseconds": "us", "nanoseconds": "ns"}
@@ -39,7 +39,7 @@ _DEVICES = {thing + label for thing in _THINGS for label in _LABELS} - {"sensor"
 _QUAT = re.compile(r"(?:(truth|ref|reference|opt|optical)_)?(?:q|quat|quaternion|orientation)(?:_q)?_?([wxyz0-3])?")
 _LONGEST = 200  # characters of a name that are looked at
 _TOKEN = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z0-9]+|[A-Z]")
-_BRACKET = re.compile(r"(.*?)\s*(?:\(([^()]*)\)|\[([^\[\]]*)\])\s*")
+_BRACKET = re.compile(r"(.*?)\s*(?:\(((?:[^()]|\([^()]*\))*)\)|\[([^\[\]]*)\])\s*")
 
 
 class Field(NamedTuple):

@@ -180,10 +180,9 @@ def _names(
 ) -> tuple[str, ...] | None:
     if texts:
         cells = texts.pop()
-        if texts and all(not cell or units.is_unit(cell.strip("()[]")) for cell in cells):
-            row = cells
-            cells = texts.pop()
-            cells = [f"{name} ({unit.strip('()[]')})" if unit else name for name, unit in zip(cells, row, strict=False)]
+        if texts and _are_units(cells):
+            row = [re.sub(r"[()\[\]]", "", unit) for unit in cells]
+            cells = [f"{name} ({unit})" if unit else name for name, unit in zip(texts.pop(), row, strict=False)]
         if texts:
             notes.append(f"{len(texts)} lines before the column names are left out")
     else:
@@ -199,6 +198,13 @@ def _names(
             f"({listed(cells)}); if the delimiter or the decimal sign was not recognised, say --delimiter or --decimal"
         )
     return tuple(cells)
+
+
+def _are_units(cells: list[str]) -> bool:
+    """Whether a row holds units, and perhaps some of quantities that are not read, but no names."""
+    said = [cell for cell in cells if cell]
+    known = sum(units.is_unit(cell.strip("[]")) for cell in said)
+    return known == len(said) or (known >= 3 and known > sum(bool(parse(cell).role) for cell in said))
 
 
 def _names_columns(cells: list[str], width: int) -> bool:

@@ -20,7 +20,7 @@ FACTORS: dict[str, dict[str, float]] = {
     "mag": {"µT": 1.0, "T": 1e6, "mT": 1e3, "nT": 1e-3, "G": 100.0, "mG": 0.1, AS_FOUND: 1.0},
 }
 
-# Spellings, after _plain: lower case, no blanks, no ^ * · ², µ as u, ° as deg.
+# Spellings, after _plain: lower case, no blanks, no ^ * · ( ) ², µ as u, ° as deg.
 _SPELLINGS: dict[str, dict[str, str]] = {
     "time": {
         "s": "s sec secs second seconds",
@@ -87,4 +87,4 @@ def is_unit(text: str) -> bool:
 def _plain(text: str) -> str:
     text = text.strip().lower().replace("µ", "u").replace("μ", "u").replace("²", "2").replace("°", "deg")
     text = text.replace("⁻¹", "-1").replace("⁻²", "-2").replace("per ", "/")
-    return re.sub(r"[\s^*·_]", "", text)
+    return re.sub(r"[\s^*·_()]", "", text)
