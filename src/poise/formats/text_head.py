@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from itertools import product
 
 from poise.errors import FormatError
-from poise.formats import units
+from poise.formats import text_names
 from poise.formats.limits import Options
-from poise.formats.names import listed, parse
-from poise.formats.names import split as split_name
+from poise.formats.names import parse
+from poise.formats.text_names import Above
 
 COMMENTS = ("#", "//", "%")
 MISSING = ("", "nan", "NaN", "NAN", "-nan", "-NaN", "NA", "N/A", "null", "NULL", "None", "none")
@@ -98,12 +98,12 @@ def inspect(where: str, head: bytes, whole: bool, options: Options) -> Dialect:
     ]
     comments = [line.strip().lstrip("#%/").strip() for line in lines if _is_comment(line)]
     facts = dict(_fact(line) for line in comments if line.startswith("poise.") and ": " in line)
-    delimiter, decimal = _delimiter(where, [line for _, line in body], told, options.decimal)
-    skip, first = next(
-        ((i, split(line, delimiter)) for i, line in body if _share(split(line, delimiter), decimal) >= 0.5), (-1, [])
-    )
-    texts = [split(line, delimiter) for i, line in body if i < skip]
-    names = _names(where, texts, comments, delimiter, first, skip, notes)
+    delimiter, decimal, width = _delimiter(where, [line for _, line in body], told, options.decimal)
+    rows = [(i, split(line, delimiter)) for i, line in body]
+    skip, first = next((i, cells) for i, cells in rows if len(cells) == width and _share(cells, decimal) >= 0.5)
+    above = [Above(i + 1, lines[i].strip(), cells, _share(cells, decimal) >= 0.5) for i, cells in rows if i < skip]
+    said = [split(comment, delimiter) for comment in comments]
+    names = text_names.find(where, above, said, first, skip + 1, options.columns is not None, notes)
     options.limits.check(where, "columns", len(first))
     return Dialect(encoding, bom, delimiter, decimal, names, skip, tuple(first), facts, tuple(notes))
 
@@ -128,19 +128,20 @@ def _is_comment(line: str) -> bool:
     return line.lstrip().startswith(COMMENTS)
 
 
-def _delimiter(where: str, lines: list[str], told: str | None, decimal: str | None) -> tuple[str, str]:
+def _delimiter(where: str, lines: list[str], told: str | None, decimal: str | None) -> tuple[str, str, int]:
+    """What separates cells and decimals, and how many cells a row has."""
     if told is not None:
         told = _WORDS.get(told, told)
         if len(told) != 1 or (not told.isprintable() and told != "\t") or told.isalnum() or told in '."+-':
             raise FormatError(f'{where}: --delimiter {told!r} not understood; expected one character, "tab" or "space"')
     if decimal not in (None, ".", ","):
         raise FormatError(f'{where}: --decimal {decimal!r} not understood; expected "." or ","')
-    best, choice = (0.0, 0), None
+    best, choice = (0.0, 0), ("", "")
     for delimiter, mark in product(told or _DELIMITERS, decimal or ".,"):
         if (score := _score(lines, delimiter, mark)) > best:
             best, choice = score, (delimiter, mark)
-    if choice is not None:
-        return choice
+    if best[1]:
+        return *choice, best[1]
     if (told or decimal) and max(_score(lines, *each) for each in product(_DELIMITERS, ".,")) > (0.0, 0):
         given = [f"{name} {value!r}" for name, value in (("--delimiter", told), ("--decimal", decimal)) if value]
         raise FormatError(f"{where}: no rows of numbers with {' and '.join(given)}; without, there are: leave it out")
@@ -167,47 +168,3 @@ def _share(cells: Sequence[str], decimal: str) -> float:
     numbers = sum(pattern.fullmatch(cell) is not None for cell in cells)
     other = sum(cell in MISSING or ISO.fullmatch(cell) is not None for cell in cells)
     return (numbers + other) / len(cells) if numbers else 0.0
-
-
-def _names(
-    where: str,
-    texts: list[list[str]],
-    comments: list[str],
-    delimiter: str,
-    first: list[str],
-    skip: int,
-    notes: list[str],
-) -> tuple[str, ...] | None:
-    if texts:
-        cells = texts.pop()
-        if texts and _are_units(cells):
-            row = [re.sub(r"[()\[\]]", "", unit) for unit in cells]
-            cells = [f"{name} ({unit})" if unit else name for name, unit in zip(texts.pop(), row, strict=False)]
-        if texts:
-            notes.append(f"{len(texts)} lines before the column names are left out")
-    else:
-        last = [split(comment, delimiter) for comment in comments]
-        cells = next((row for row in reversed(last) if _names_columns(row, len(first))), [])
-        if not cells:
-            return None
-    if len(cells) == len(first) - 1 and not first[-1]:
-        cells = [*cells, ""]
-    if len(cells) != len(first):
-        raise FormatError(
-            f"{where}: line {skip + 1} has {len(first)} cells, the header above it names {len(cells)} columns "
-            f"({listed(cells)}); if the delimiter or the decimal sign was not recognised, say --delimiter or --decimal"
-        )
-    return tuple(cells)
-
-
-def _are_units(cells: list[str]) -> bool:
-    """Whether a row holds units, and perhaps some of quantities that are not read, but no names."""
-    said = [cell for cell in cells if cell]
-    known = sum(units.is_unit(cell.strip("[]")) for cell in said)
-    return known == len(said) or (known >= 3 and known > sum(bool(parse(cell).role) for cell in said))
-
-
-def _names_columns(cells: list[str], width: int) -> bool:
-    return (
-        len(cells) == width and sum(bool(parse(cell).role or units.sensor(split_name(cell)[1])) for cell in cells) >= 2
-    )
