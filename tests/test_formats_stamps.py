@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 import poise
 from poise.data.stamps import Turns
+from poise.errors import FormatError
 from poise.formats import text
 
 NAMES = "gx (rad/s),gy,gz,ax (m/s2),ay,az"
@@ -102,3 +103,122 @@ def test_stamps_that_are_none_stay(tmp_path: Path) -> None:
     found = turns.of(np.array([98.0, np.nan, 1.0, np.inf, 4.0]))
     np.testing.assert_array_equal(found, [98.0, np.nan, 101.0, np.inf, 104.0])
     assert turns.passed == {100.0: 1}
+
+
+MIDDAY = "{h:02d}:{m:02d}:{s:06.3f}"
+FORMS = {
+    "10:11:12.345": (MIDDAY, 0.0),
+    "comma": (MIDDAY.replace("{s:06.3f}", "{s:02.0f},{ms:03d}"), 0.0),
+    "04-May-2023": ("04-May-2023 " + MIDDAY, 1683158400.0),
+    "4 MAR 2024": ("4 MAR 2024 " + MIDDAY, 1709510400.0),
+    "2023/05/04": ("2023/05/04 " + MIDDAY, 1683158400.0),
+    "2023-5-4T": ("2023-5-4T" + MIDDAY, 1683158400.0),
+}
+
+
+def written(form: str, seconds: float) -> str:
+    milli = round(seconds * 1e3) % 86_400_000
+    hour, minute, second = milli // 3_600_000, milli // 60_000 % 60, milli % 60_000 / 1e3
+    if ",{ms" in form:
+        return form.format(h=hour, m=minute, s=second // 1, ms=milli % 1000)
+    return form.format(h=hour, m=minute, s=second)
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.usefixtures("small")
+def test_stamps_in_words(tmp_path: Path, form: str) -> None:
+    pattern, day = FORMS[form]
+    stamps = [written(pattern, 36672.5 + i / 100) for i in range(200)]
+    path = tmp_path / "a.csv"
+    lines = [f"{stamp};0.1;0.2;0.3;0;0;9.8" for stamp in stamps]
+    path.write_text("\n".join([f"time;{NAMES.replace(',', ';')}", *lines, ""]))
+    recording = poise.read(path)
+    np.testing.assert_allclose(recording.time, day + 36672.5 + np.arange(200) / 100, atol=3e-7, rtol=0)
+    same_in_chunks(path, recording)
+
+
+@pytest.mark.usefixtures("small")
+def test_a_clock_passes_midnight(tmp_path: Path) -> None:
+    stamps = [written(MIDDAY, 86399.0 + i / 100) for i in range(200)]
+    stamps[50] = ""
+    path = table(tmp_path / "a.csv", stamps)
+    recording = poise.read(path)
+    wanted = 86399.0 + np.arange(200) / 100
+    wanted[50] = np.nan
+    np.testing.assert_allclose(recording.time, wanted, atol=1e-9, rtol=0)
+    assert "time: it passes midnight, 1 time; the stamps go on" in recording.notes
+    same_in_chunks(path, recording)
+
+
+def test_a_date_in_a_column_of_its_own(tmp_path: Path) -> None:
+    stamps = [f"{'31-Dec-2023' if i < 100 else '01-Jan-2024'},{written(MIDDAY, 86399.0 + i / 100)}" for i in range(200)]
+    path = table(tmp_path / "a.csv", stamps, "Date,Time")
+    recording = poise.read(path)
+    np.testing.assert_allclose(recording.time, 1704067199.0 + np.arange(200) / 100, atol=3e-7, rtol=0)
+    assert not any("not used" in note or "midnight" in note for note in recording.notes)
+    path = table(tmp_path / "b.csv", [f"04/05/2023,{written(MIDDAY, i / 100)}" for i in range(30)], "Date,Time")
+    ambiguous = poise.read(path)  # two days it may be: the clock is enough
+    assert ambiguous.time[1] == pytest.approx(0.01) and ambiguous.notes[-1] == "not used: Date"
+    path = table(tmp_path / "c.csv", [f"2023-05-04,{i / 100}" for i in range(30)], "date,time")
+    assert poise.read(path).time[1] == 0.01  # a time that is none of a day
+
+
+@pytest.mark.parametrize(
+    ("stamps", "reason"),
+    [
+        (["04/05/2023 10:11:12.3"] * 9, r"line 2, column 1 \(time\).*expected stamps like .*--rate HZ"),
+        (["10:11:12.3 PM"] * 9, r"line 2, column 1 \(time\).*expected stamps like .*--rate HZ"),
+        (["10:11:12.3", "10:11"], r"line 3, column 1 \(time\): found '10:11'.*--rate HZ"),
+        (["10:61:12.3"], "names a day or time that is none"),
+        (["30-Feb-2023 10:11:12.3"], "names a day or time that is none"),
+        (["4-Mai-2023 10:11:12.3"], "names a day or time that is none"),
+        (["2023/13/04 10:11:12.3"], "names a day or time that is none"),
+    ],
+)
+def test_stamps_that_cannot_be_read_are_refused_and_rate_leaves_them_out(
+    tmp_path: Path, stamps: list[str], reason: str
+) -> None:
+    path = table(tmp_path / "a.csv", [*stamps, *stamps[-1:] * 20])
+    with pytest.raises(FormatError, match=reason):
+        poise.read(path)
+    recording = poise.read(path, rate=50)
+    assert recording.rate_hz == pytest.approx(50)
+    assert "time: the file's own stamps are ignored for the given rate of 50 Hz" in recording.notes
+
+
+def test_parquet_with_stamps_that_are_no_numbers(tmp_path: Path) -> None:
+    from pyarrow import csv, parquet
+
+    path = table(tmp_path / "a.csv", ["10:11:12 PM"] * 30)
+    parquet.write_table(csv.read_csv(path), tmp_path / "a.parquet")
+    with pytest.raises(FormatError, match="holds string, expected numbers or time stamps; with --rate HZ"):
+        poise.read(tmp_path / "a.parquet")
+    assert len(poise.read(tmp_path / "a.parquet", rate=50)) == 30
+
+
+@pytest.mark.parametrize(
+    ("name", "form", "hz"),
+    [
+        ("timestamp", "2023-05-04T10:11:{:02d}", r" \(100, by"),
+        ("time", "10:11:{:02d}", r" \(100, by"),
+        ("epoch", "{}", ""),
+    ],
+)
+def test_stamps_in_whole_seconds_are_too_coarse(tmp_path: Path, name: str, form: str, hz: str) -> None:
+    path = table(tmp_path / "a.csv", [form.format(10 + i // 100) for i in range(1000)], name)
+    with pytest.raises(FormatError, match=rf"99.1% of the stamps are that of the row before.*say --rate HZ{hz}"):
+        poise.read(path)
+    assert poise.read(path, rate=100).rate_hz == pytest.approx(100)
+
+
+def test_packets_that_share_a_stamp_are_not_too_coarse(tmp_path: Path) -> None:
+    path = table(tmp_path / "a.csv", [f"10:11:{10 + i // 10:02d}" for i in range(400)])
+    assert any("packets of 10 rows" in note for note in poise.read(path).notes)
+
+
+def test_a_reference_by_the_clock_passes_midnight(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text(
+        "time,qw,qx,qy,qz\n" + "".join(f"{written(MIDDAY, 86399.5 + i / 100)},1,0,0,0\n" for i in range(90))
+    )
+    np.testing.assert_allclose(poise.read_attitude(path).time, 86399.5 + np.arange(90) / 100)

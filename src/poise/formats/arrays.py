@@ -33,7 +33,7 @@ def to_table(where: str, kind: str, found: dict[str, NDArray[Any]], options: Opt
             continue
         if role == "device":
             Devices(where, [title]).see(title, {f"{value:g}" for value in np.unique(array[np.isfinite(array)])})
-        if not role or role in ("rate", "period", "device"):
+        if not role or role in ("rate", "period", "device", "date"):
             unused.append(title)
             continue
         array = np.squeeze(array) if array.size != 1 else array.reshape(1)

@@ -131,7 +131,8 @@ class Assembler:
         if unused := self._table.layout.unused:
             said.append(f"not used: {listed(unused)}")
         for end, count in self._turns.passed.items():
-            said.append(f"time: the counter begins anew at {end:.0f}, {counted(count, 'time')}; the stamps go on")
+            what = "it passes midnight" if self._table.daily else f"the counter begins anew at {end:.0f}"
+            said.append(f"time: {what}, {counted(count, 'time')}; the stamps go on")
         for sensor, new in self._seen["fresh"].items():
             said.append(
                 f"{sensor}: slower than the gyroscope, each sample was repeated over {self._made.held[sensor]} rows; "

@@ -15,9 +15,11 @@ from poise.formats.held import usual_distance
 from poise.formats.limits import Options
 from poise.formats.names import SENSORS
 from poise.formats.table import Columns, Floats, Table
+from poise.formats.text_stamps import DAY
 
 _TICKS = {"sampletimefine": "100us"}  # clocks that count in a unit of their own, or in a usual one (Xsens, Movella)
 _BITS = (16, 32)  # of counters that begin anew
+_SAME = 0.9  # of the steps: a clock that stands still so often is read, but does not tell the steps
 _FREE = 3.0  # m/s²: no accelerometer on Earth shows less by its median
 
 
@@ -39,6 +41,8 @@ class Decisions:
     """sensors whose samples are repeated, and over how many rows"""
     ends: tuple[float, ...] = ()
     """at which the stamps may begin anew, in their own unit"""
+    across: float = 0.0
+    """the longest step over such an end, in that unit"""
     gravity: float = STANDARD_GRAVITY
     notes: list[str] = field(default_factory=list)
     doubts: list[str] = field(default_factory=list)
@@ -48,8 +52,8 @@ class Decisions:
         return units.FACTORS[sensor][self.unit[sensor]]
 
     def turns(self) -> Turns:
-        """What makes stamps that begin anew go on; in the file's unit, from the first row on."""
-        return Turns(self.ends, most=self.gap * self.factor("time"))
+        """What makes stamps that begin anew go on, from the first row on."""
+        return Turns(self.ends, most=self.across)
 
     @property
     def gap(self) -> float:
@@ -71,7 +75,10 @@ def decide(where: str, table: Table, options: Options) -> Decisions:
     time = _time(where, table, sample, options, made)
     made.step, made.packets = usual_step(time), packed(time)
     if made.rate is None and not table.own:
-        made.ends = _ends(sample["time"])
+        made.ends = (DAY,) if table.daily else _ends(sample["time"])
+        made.across = DAY / 2 if table.daily else made.gap * made.factor("time")
+        if made.packets is None and not options.as_is:
+            _check_coarse(where, time, table)
     if made.packets is not None:
         made.doubts.append(f"time: packets of {made.packets.words}, taken to be evenly apart")
     rows = {sensor: stacked(sample, sensor) for sensor in SENSORS if f"{sensor}_x" in sample}
@@ -104,7 +111,7 @@ def _time(where: str, table: Table, sample: Columns, options: Options, made: Dec
     if rate is not None:
         if not (np.isfinite(rate) and rate > 0):
             raise FormatError(f"{where}: a rate of {rate} samples per second; expected a number above 0 (--rate HZ)")
-        if len(stamps):
+        if "time" in table.layout.columns:
             made.notes.append(f"time: the file's own stamps are ignored for the given rate of {rate:g} Hz")
         made.unit["time"], made.how["time"], made.rate = "s", f"from the rate of {rate:g} Hz", rate
         return np.asarray(np.arange(len(sample["gyr_x"])) / rate)
@@ -127,6 +134,20 @@ def _time(where: str, table: Table, sample: Columns, options: Options, made: Dec
         made.notes.append(f"time: taken as {unit}, because {how}")
     made.unit["time"], made.how["time"] = unit, how or "assumed"
     return stamps / units.FACTORS["time"][unit]
+
+
+def _check_coarse(where: str, time: Floats, table: Table) -> None:
+    """Raises :class:`FormatError` where most stamps *time* (n,) are the one before, and not as rows in packets have it."""
+    steps = np.diff(time)
+    changes = np.flatnonzero(steps != 0.0)
+    same = 1.0 - len(changes) / max(len(steps), 1)
+    if same > _SAME and len(changes) > 1:
+        hz = np.median(np.diff(changes)) / usual_step(time)
+        hint = f" ({hz:.3g}, by how many share one)" if table.time_unit else ""
+        raise FormatError(
+            f"{where}: {same:.1%} of the stamps are that of the row before: they are too coarse to tell the steps between "
+            f"rows; say --rate HZ{hint}, which makes even ones"
+        )
 
 
 def _ends(stamps: Floats) -> tuple[float, ...]:

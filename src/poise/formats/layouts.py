@@ -37,6 +37,8 @@ class Layout:
     """columns that nothing else is said about"""
     devices: tuple[Column, ...] = ()
     """columns that name the device a row is of"""
+    date: Column | None = None
+    """the day that times of day are of"""
 
     def unit(self, sensor: str) -> str:
         """The unit that the names of *sensor*'s columns carry, as written; "" where they carry none."""
@@ -77,7 +79,7 @@ def choose(where: str, names: Sequence[str], timed: bool = False) -> Layout:
     fields = _parsed(names)
     notes = _by_unit(names, fields)
     for index, (name, parsed) in enumerate(zip(names, fields, strict=True)):
-        if not parsed.role or parsed.role == "device":
+        if parsed.role in ("", "device", "date"):
             continue
         rivals.setdefault(parsed.role, []).append(name)
         other = found.get(parsed.role)
@@ -101,8 +103,10 @@ def choose(where: str, names: Sequence[str], timed: bool = False) -> Layout:
     said = (*used, "free_", "quat_")
     indices = {column.index for column in used.values()}
     unused = [n for i, n in enumerate(names) if n and i not in indices and not fields[i].role.startswith(said)]
-    devices = tuple(Column(i, names[i], "") for i, field in enumerate(fields) if field.role == "device")
-    return Layout(used, tuple(notes), tuple(unused), devices)
+    beside = [(field.role, Column(i, names[i], "")) for i, field in enumerate(fields)]
+    devices = tuple(column for role, column in beside if role == "device")
+    dates = [column for role, column in beside if role == "date"]
+    return Layout(used, tuple(notes), tuple(unused), devices, dates[0] if len(dates) == 1 else None)
 
 
 def _parsed(names: Sequence[str]) -> list[Field]:

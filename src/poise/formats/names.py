@@ -105,6 +105,8 @@ def _other(tokens: list[str], unit: str) -> Field | None:
         return Field(f"acc_{joined[-1]}", unit or "g", word="gforce")
     if joined in ("moving", "movement"):
         return Field("moving")
+    if joined == "date":
+        return Field("date")
     if joined in _RATES or joined in _PERIODS:
         return Field("rate" if joined in _RATES else "period", unit)
     if joined in _TIMES_IN:

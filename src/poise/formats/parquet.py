@@ -13,6 +13,8 @@ from poise.formats.devices import Devices
 from poise.formats.limits import Options, check_expansion
 from poise.formats.table import BLOCK, KIND, Block, Columns, Table, joined, stretches
 
+_RATE = " or time stamps; with --rate HZ the column is left out"
+
 
 def read(path: Path, options: Options) -> Table:
     """The table in a Parquet file. Raises :class:`FormatError` where it is damaged or not a recording."""
@@ -25,6 +27,8 @@ def read(path: Path, options: Options) -> Table:
         header = layouts.renamed(where, file.schema_arrow.names, options.columns, len(file.schema_arrow.names))
         layout = layouts.choose(where, header, timed=options.rate is not None)
         wanted = {key: file.schema_arrow.names[column.index] for key, column in layout.columns.items()}
+        if options.rate is not None:
+            wanted.pop("time", None)  # which may hold anything then
         devices = [file.schema_arrow.names[column.index] for column in layout.devices]
         rows = ParquetRows(where, path, file, wanted, options, devices)
     return Table("Parquet", layout, rows, facts, None, "s" if rows.calendar else "", list(layout.notes))
@@ -79,7 +83,9 @@ class ParquetRows:
             if pyarrow.types.is_timestamp(kind) and key == "time":
                 self.calendar = True
             elif not _is_number(kind):
-                raise FormatError(f"{where}: column {name!r} ({key}) holds {kind}, expected numbers")
+                raise FormatError(
+                    f"{where}: column {name!r} ({key}) holds {kind}, expected numbers{_RATE * (key == 'time')}"
+                )
 
     def sample(self) -> Columns:
         """Every row of a short file, else evenly spread stretches of it."""

@@ -54,6 +54,8 @@ class Table:
     notes: list[str] = field(default_factory=list)
     doubts: list[str] = field(default_factory=list)
     """both may still grow while the last rows are read"""
+    daily: bool = False
+    """whether time is that of a day, which begins anew at midnight"""
 
     @property
     def own(self) -> bool:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import codecs
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy as np
 
 from poise.errors import FormatError
-from poise.formats import layouts, text_head
+from poise.formats import layouts, text_head, text_stamps
 from poise.formats.layouts import Column
 from poise.formats.limits import Limits, Options
 from poise.formats.table import KIND, STRETCH, STRETCHES, Block, Columns, Table, joined
@@ -33,10 +34,26 @@ def read(path: Path, options: Options) -> Table:
     header = layouts.renamed(where, dialect.names, options.columns, len(dialect.first))
     layout = layouts.choose(where, header, timed=options.rate is not None)
     columns = {key: column.index for key, column in layout.columns.items()}
+    if options.rate is not None:
+        columns.pop("time", None)  # which may hold anything then
+    if layout.date and dialect.written(columns) == text_stamps.CLOCK:
+        dated = columns | {"date": layout.date.index}
+        if dialect.written(dated) != text_stamps.CLOCK:
+            columns = dated
+            layout = replace(layout, unused=tuple(name for name in layout.unused if name != layout.date.name))
+    written = dialect.written(columns)
     rows = TextRows(where, path, dialect, columns, options.limits, layout.devices)
     rows.notes += [*dialect.notes, *layout.notes]
-    calendar = "s" if dialect.iso(columns.get("time")) else ""
-    return Table(dialect.sentence, layout, rows, dialect.facts, None, calendar, rows.notes, rows.doubts)
+    return Table(
+        dialect.sentence,
+        layout,
+        rows,
+        dialect.facts,
+        time_unit="s" if written or dialect.iso(columns.get("time")) else "",
+        daily=written == text_stamps.CLOCK,
+        notes=rows.notes,
+        doubts=rows.doubts,
+    )
 
 
 class TextRows:

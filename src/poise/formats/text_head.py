@@ -6,13 +6,13 @@ import csv
 import json
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import product
 
 from poise.errors import FormatError
-from poise.formats import text_names
+from poise.formats import text_names, text_stamps
 from poise.formats.limits import Options
 from poise.formats.names import parse
 from poise.formats.text_names import Above
@@ -47,7 +47,19 @@ class Dialect:
 
     def iso(self, column: int | None) -> bool:
         """Whether that column holds calendar stamps (ISO 8601) instead of numbers."""
-        return column is not None and ISO.fullmatch(self.first[column]) is not None
+        return column is not None and _is_iso(self.first[column])
+
+    def written(self, columns: Mapping[str, int]) -> str:
+        """The pattern of "time" in words other than ISO 8601, with the day in "date" if that is given; "" for numbers."""
+        if "time" not in columns or self.iso(columns["time"]):
+            return ""
+        cell = self.first[columns["time"]]
+        day = text_stamps.date(self.first[columns["date"]]) if "date" in columns else ""
+        return (
+            text_stamps.both(day)
+            if day and text_stamps.clock(cell)
+            else text_stamps.clock(cell) or text_stamps.dated(cell)
+        )
 
     @property
     def sentence(self) -> str:
@@ -124,6 +136,14 @@ def _decode(head: bytes, encoding: str) -> str:
         return head.decode("cp1252", "replace")
 
 
+def _is_iso(cell: str) -> bool:
+    return ISO.fullmatch(cell) is not None and "," not in cell
+
+
+def _is_stamp(cell: str) -> bool:
+    return ":" in cell and bool(_is_iso(cell) or text_stamps.clock(cell) or text_stamps.dated(cell))
+
+
 def _is_comment(line: str) -> bool:
     return line.lstrip().startswith(COMMENTS)
 
@@ -166,5 +186,5 @@ def _share(cells: Sequence[str], decimal: str) -> float:
     """How much of a row is numbers, stamps or nothing; 0 where not even one number is there."""
     pattern = number_pattern(decimal)
     numbers = sum(pattern.fullmatch(cell) is not None for cell in cells)
-    other = sum(cell in MISSING or ISO.fullmatch(cell) is not None for cell in cells)
+    other = sum(cell in MISSING or _is_stamp(cell) for cell in cells)
     return (numbers + other) / len(cells) if numbers else 0.0
