@@ -109,7 +109,7 @@ def test_several_devices_in_one_file_are_refused(made: Writer, tmp_path: Path, n
     for content in (rows + other, interleaved):
         path.write_text(f"{header}\n{content}")
         for use in (read, lambda path: list(read_chunks(path, 7))):
-            reason = rf"column '{name}' names 2 devices \(left, right\).*split the file.*--columns {name}=-"
+            reason = rf"column '{name}' names more than one device \(left, right\).*split the file.*--columns {name}=-"
             with pytest.raises(FormatError, match=reason):
                 use(path)
         assert len(read(path, columns=f"{name}=-")) == 40
@@ -124,11 +124,20 @@ def test_what_names_no_device_may_change(made: Writer, name: str) -> None:
     assert len(read(path)) == 40
 
 
-def test_a_count_is_no_device(made: Writer) -> None:
+@pytest.mark.parametrize("value", [str, lambda i: str(i % 7 + 0.5)], ids=["count", "measure"])
+def test_a_quantity_is_no_device(made: Writer, value: Callable[[int], str]) -> None:
     path = made(f"{USUAL},node", "NUMBER", rows=200)
     for i in range(200):
-        path.write_text(path.read_text().replace("NUMBER", str(i), 1))
+        path.write_text(path.read_text().replace("NUMBER", value(i), 1))
     assert len(read(path)) == 200
+
+
+def test_many_devices_are_several(made: Writer) -> None:
+    path = made(f"{USUAL},mac", "NUMBER", rows=200)
+    for i in range(200):
+        path.write_text(path.read_text().replace("NUMBER", f"aa:{i:02x}", 1))
+    with pytest.raises(FormatError, match=r"names more than one device \(aa:00, .* and 194 more\)"):
+        read(path)
 
 
 def test_several_devices_in_parquet_and_npz(tmp_path: Path) -> None:
@@ -141,7 +150,7 @@ def test_several_devices_in_parquet_and_npz(tmp_path: Path) -> None:
     rows = np.tile([0.0, 0.0, 9.8], (30, 1))
     np.savez(tmp_path / "a.npz", time=np.arange(30) / 100, gyr=rows, acc=rows, device_id=7 + np.arange(30) // 15)
     for kind in ("csv", "parquet", "npz"):
-        with pytest.raises(FormatError, match=r"'device_id' names 2 devices \(7, 8\)"):
+        with pytest.raises(FormatError, match=r"'device_id' names more than one device \(7, 8\)"):
             read(tmp_path / f"a.{kind}")
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from poise.data.recording import STANDARD_GRAVITY, check_unit_of_time
 from poise.data.stamps import Packed, Turns, packed, usual_step
 from poise.errors import FormatError
-from poise.formats import evidence, names, units
+from poise.formats import evidence, units
 from poise.formats.evidence import Verdict
 from poise.formats.held import usual_distance
 from poise.formats.limits import Options
@@ -117,7 +117,7 @@ def _time(where: str, table: Table, sample: Columns, options: Options, made: Dec
         return np.asarray(np.arange(len(sample["gyr_x"])) / rate)
     stated, how = _stated(where, "time", table, options)
     column = table.layout.columns.get("time")
-    verdict = evidence.of_time(stamps, _TICKS.get(names.parse(column.name).word, "") if column else "")
+    verdict = evidence.of_time(stamps, _TICKS.get(column.word, "") if column else "")
     if not stated and not verdict.unit and len(stamps) > 1 and not options.as_is:
         raise FormatError(
             f"{where}: unit of time not named, and {verdict.sentence}; say it: --units time=s (or ms, us, ns, 100us)"

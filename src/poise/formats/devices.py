@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from poise.errors import FormatError
 from poise.formats.names import listed
 
-_MOST = 100  # values: a column of more counts or measures something
+_MOST = 100  # numbers: a column of more counts something
 
 
 class Devices:
@@ -27,8 +27,17 @@ class Devices:
         seen = self._seen[column]
         if len(seen) <= _MOST:
             seen.update(value for value in values if value)
-        if 1 < len(seen) <= _MOST:
+        if len(seen) > 1 and not _is_quantity(seen):
             raise FormatError(
-                f"{self._where}: column {column!r} names {len(seen)} devices ({listed(sorted(seen), 6)}), and an attitude "
+                f"{self._where}: column {column!r} names more than one device ({listed(sorted(seen), 6)}), and an attitude "
                 f"is of one: split the file by it, or, where it names none, leave it out: --columns {column}=-"
             )
+
+
+def _is_quantity(values: Iterable[str]) -> bool:
+    """Whether *values* count or measure something: many whole numbers, or one with a fraction."""
+    try:
+        numbers = {float(value) for value in values}
+    except ValueError:
+        return False
+    return len(numbers) > _MOST or any(number % 1.0 for number in numbers)

@@ -20,11 +20,12 @@ _COMPUTED = set(_COMPUTED_WORDS.split())  # in the name of a vector that is no s
 
 @dataclass(frozen=True)
 class Column:
-    """One column that is used: where it stands, what the file calls it and the unit its name carries."""
+    """One column that is used: where it stands, what the file calls it, and its name's unit and word for the quantity."""
 
     index: int
     name: str
-    unit: str
+    unit: str = ""
+    word: str = ""
 
 
 @dataclass(frozen=True)
@@ -89,7 +90,7 @@ def choose(where: str, names: Sequence[str], timed: bool = False) -> Layout:
                 "pick with --columns, where - skips one"
             )
         if other is None or parsed.rank < other[0].rank:
-            found[parsed.role] = parsed, Column(index, name, parsed.unit)
+            found[parsed.role] = parsed, Column(index, name, parsed.unit, parsed.word)
     for role, claims in rivals.items():
         if others := [name for name in claims if name != found[role][1].name]:
             notes.append(f"{role}: took column {found[role][1].name!r}, left out {listed(others)}")
@@ -103,7 +104,7 @@ def choose(where: str, names: Sequence[str], timed: bool = False) -> Layout:
     said = (*used, "free_", "quat_")
     indices = {column.index for column in used.values()}
     unused = [n for i, n in enumerate(names) if n and i not in indices and not fields[i].role.startswith(said)]
-    beside = [(field.role, Column(i, names[i], "")) for i, field in enumerate(fields)]
+    beside = [(field.role, Column(i, names[i])) for i, field in enumerate(fields)]
     devices = tuple(column for role, column in beside if role == "device")
     dates = [column for role, column in beside if role == "date"]
     return Layout(used, tuple(notes), tuple(unused), devices, dates[0] if len(dates) == 1 else None)
