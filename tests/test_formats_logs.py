@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from poise.errors import FormatError
-from poise.formats import read, read_chunks
+from poise.formats import read, read_chunks, text
+from poise.formats import table as tables
 
 NAMES = "time[ms],gx[rad/s],gy,gz,ax[m/s2],ay,az"
 ROWS = "".join(f"{10 * i},0.5,{i}.25,-0.3,0.5,-0.25,9.75\n" for i in range(30))
@@ -69,3 +70,29 @@ def test_names_of_another_count_are_no_text(log) -> None:
 
 def test_a_second_table_below_a_small_one(log) -> None:
     expect(log(f"rate,range\n100,2000\n{NAMES}\n{ROWS}"), "2 lines before the column names are left out")
+
+
+@pytest.mark.parametrize("delimiter", [",", ";", "\t", " "])
+def test_text_between_rows_is_left_out_and_counted(log, monkeypatch: pytest.MonkeyPatch, delimiter: str) -> None:
+    lines = ROWS.splitlines(keepends=True)
+    content = "".join(line + "WARNING\n\n" * (i % 7 == 6) for i, line in enumerate(lines))
+    path = log((f"{NAMES}\n{content}").replace(",", delimiter))
+    expect(path, "4 lines of text between the rows, left out")
+    monkeypatch.setattr(text, "_BLOCK", 60)
+    expect(path, "4 lines of text between the rows, left out")
+    monkeypatch.setattr(text, "_SMALL", 100)
+    monkeypatch.setattr(tables, "STRETCH", 5)
+    whole = read(path, units={"gyr": "rad/s"})
+    for stop in range(0, 32, 3):  # another process goes on
+        first = read_chunks(path, 1)
+        for _ in zip(range(stop), first, strict=False):
+            pass
+        second = read_chunks(path, 1)
+        second.go_on(first.state())
+        assert stop + sum(len(part) for part in second) == max(len(whole), stop) and second.notes == whole.notes
+
+
+@pytest.mark.parametrize("line", ["WARN 7", "12", "a,b,c", "done,", "0x1f"])
+def test_other_lines_between_rows_are_refused(log, line: str) -> None:
+    with pytest.raises(FormatError, match="line 32: "):
+        read(log(f"{NAMES}\n{ROWS}{line}\n{ROWS}"))

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from poise.errors import FormatError
 from poise.formats import layouts, names
 from poise.formats.devices import Devices
+from poise.formats.layouts import Column
 from poise.formats.limits import Options
 from poise.formats.table import Table, Whole
 
@@ -32,7 +33,8 @@ def to_table(where: str, kind: str, found: dict[str, NDArray[Any]], options: Opt
             rate = value if role == "rate" else 1.0 / value if value > 0 else float("nan")
             continue
         if role == "device":
-            Devices(where, [title]).see(title, {f"{value:g}" for value in np.unique(array[np.isfinite(array)])})
+            named = Column(0, title)
+            Devices(where, [named]).see(named, {f"{value:g}" for value in np.unique(array[np.isfinite(array)])})
         if not role or role in ("rate", "period", "device", "date"):
             unused.append(title)
             continue

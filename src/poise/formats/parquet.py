@@ -10,6 +10,7 @@ from poise.data import arrow
 from poise.errors import FormatError
 from poise.formats import layouts
 from poise.formats.devices import Devices
+from poise.formats.layouts import Column
 from poise.formats.limits import Options, check_expansion
 from poise.formats.table import BLOCK, KIND, Block, Columns, Table, joined, stretches
 
@@ -29,8 +30,7 @@ def read(path: Path, options: Options) -> Table:
         wanted = {key: file.schema_arrow.names[column.index] for key, column in layout.columns.items()}
         if options.rate is not None:
             wanted.pop("time", None)  # which may hold anything then
-        devices = [file.schema_arrow.names[column.index] for column in layout.devices]
-        rows = ParquetRows(where, path, file, wanted, options, devices)
+        rows = ParquetRows(where, path, file, wanted, options, layout.devices)
     return Table("Parquet", layout, rows, facts, None, "s" if rows.calendar else "", list(layout.notes))
 
 
@@ -65,7 +65,7 @@ class ParquetRows:
         file: Any,
         wanted: dict[str, str],
         options: Options,
-        devices: Sequence[str] = (),
+        devices: Sequence[Column] = (),
     ) -> None:
         import pyarrow
 
@@ -129,12 +129,13 @@ class ParquetRows:
             raise FormatError(f"{self._where}: damaged Parquet file ({_short(problem)}); {advice}") from None
 
     def _group(self, file: Any, group: int, start: int, parts: list[slice]) -> Iterator[Block]:
-        names = [*self._wanted.values(), *self._devices.columns]
+        devices = {column: file.schema_arrow.names[column.index] for column in self._devices.columns}
+        names = [*self._wanted.values(), *devices.values()]
         for batch in file.iter_batches(BLOCK, row_groups=[group], columns=names, use_threads=False):
             end = start + batch.num_rows
             if any(part.start < end and part.stop > start for part in parts):
-                for name in self._devices.columns:
-                    self._devices.see(name, arrow.different(batch.column(name)))
+                for column, name in devices.items():
+                    self._devices.see(column, arrow.different(batch.column(name)))
                 columns = {key: arrow.floats(batch.column(name)) for key, name in self._wanted.items()}
                 yield Block((start,), columns)
             start = end

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -12,7 +11,6 @@ from poise.data import arrow
 from poise.errors import FormatError
 from poise.formats import text_head, text_stamps
 from poise.formats.devices import Devices
-from poise.formats.layouts import Column
 from poise.formats.table import Columns
 from poise.formats.text_head import Dialect
 
@@ -28,12 +26,15 @@ class Parser:
     where: str
     dialect: Dialect
     columns: dict[str, int]
-    devices: Sequence[Column] = ()
+    devices: Devices
+    texts: int = 0
+    """lines of text between the rows so far, which are left out"""
     _above: list[bytes] = field(default_factory=list)
     """the last lines that were parsed"""
 
     def __post_init__(self) -> None:
-        self._seen = Devices(self.where, [column.name for column in self.devices])
+        marks = re.escape(self.dialect.delimiter.encode()) + rb"\t" * (self.dialect.delimiter == " ")
+        self._text = re.compile(rb"(?m)^[^0-9\n" + marks + rb"]+$")  # a row has digits, or more cells
 
     def rows(self, line: int, block: bytes) -> Columns | None:
         """The wanted columns of one block; None where it holds no row."""
@@ -47,20 +48,28 @@ class Parser:
 
         self._above = block.rsplit(b"\n", _ABOVE + 2)[1:]
         try:
-            table = self._parse(block)
-            stamps = self._stamps(table)
+            table, stamps = self._table(block)
         except pyarrow.ArrowException as problem:
+            without, count = self._text.subn(b"", block)
+            if count:
+                self.texts += count
+                return self.rows(line, without)
             self._refuse(line, block, str(problem))
-        expected = block.count(b"\n") + (not block.endswith(b"\n"))
-        if table.num_rows != expected:
-            expected -= len(re.findall(rb"(?m)^\n", block))
-            if table.num_rows != expected:
-                self._refuse(line, block, f"{expected} lines gave {table.num_rows} rows")
-        for column in self.devices:
-            self._seen.see(column.name, arrow.different(table.column(f"c{column.index}")))
+        for column in self.devices.columns:
+            self.devices.see(column, arrow.different(table.column(f"c{column.index}")))
         words = ("time", "date") if stamps else ()
         numbers = {key: arrow.floats(table.column(f"c{i}")) for key, i in self.columns.items() if key not in words}
         return {**stamps, **numbers}
+
+    def _table(self, block: bytes) -> tuple[Any, Columns]:
+        """The cells of a block, and its stamps if they are in words; raises ``ArrowInvalid`` where a line is not right."""
+        import pyarrow
+
+        table = self._parse(block)
+        expected = block.count(b"\n") + (not block.endswith(b"\n"))
+        if table.num_rows not in (expected, expected - len(re.findall(rb"(?m)^\n", block))):
+            raise pyarrow.ArrowInvalid(f"{expected} lines gave {table.num_rows} rows")
+        return table, self._stamps(table)
 
     def _stamps(self, table: Any) -> Columns:
         """The time in s where it is written in words."""
@@ -75,7 +84,7 @@ class Parser:
         from pyarrow import csv
 
         width = [f"c{i}" for i in range(len(self.dialect.first))]
-        types: dict[str, Any] = {f"c{column.index}": pyarrow.binary() for column in self.devices}
+        types: dict[str, Any] = {f"c{column.index}": pyarrow.binary() for column in self.devices.columns}
         types |= {f"c{index}": pyarrow.float64() for index in self.columns.values()}
         time = self.columns.get("time")
         if time is not None and self.dialect.iso(time):

@@ -64,17 +64,17 @@ def seconds(columns: Sequence[Any], pattern: str) -> Floats:
             parts[name] = np.sum(numbers, axis=0) if numbers else arrow.floats(words)
         else:
             parts[name] = arrow.floats(compute.replace_substring(words, ",", "."))
-    clock = parts["hour"] * 3600.0 + parts["minute"] * 60.0 + parts["second"]
-    known = np.isfinite(clock)
+    time = parts["hour"] * 3600.0 + parts["minute"] * 60.0 + parts["second"]
+    known = np.isfinite(time)
     right = (parts["hour"] < 24) & (parts["minute"] < 60) & (parts["second"] < 61)  # 60 is a leap second
     if "year" in parts:
         months = ((parts["year"] - 1970) * 12 + parts["month"] - 1)[known].astype("M8[M]")
         days = months.astype("M8[D]") + (parts["day"][known] - 1).astype("m8[D]")
         right[known] &= (days.astype("M8[M]") == months) & (parts["month"][known] >= 1) & (parts["month"][known] <= 12)
-        clock[known] += days.astype(np.int64) * DAY
+        time[known] += days.astype(np.int64) * DAY
     if not right[known].all():
         raise pyarrow.ArrowInvalid("a stamp names a day or time that is none")
-    return clock
+    return time
 
 
 def _month(text: str) -> int:
