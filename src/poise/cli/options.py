@@ -36,7 +36,7 @@ class Reading:
 
     columns: _Dashed = None
     """Names for a file without a header, in order: `time,gx,gy,gz,ax,ay,az,mx,my,mz`, with units if you like
-    (`gx[deg/s]`), `-` for a column to skip."""
+    (`gx[deg/s]`), `-` for a column to skip; or names for single columns: `hx=mag_x,hy=mag_y,hz=mag_z,temp=-`."""
 
     units: str | None = None
     """Units the header does not name: `gyr=deg/s,acc=g,time=ms`."""

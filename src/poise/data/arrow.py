@@ -67,3 +67,9 @@ def floats(column: Any) -> NDArray[np.float64]:
             part[bits[rows] == 0] = np.nan
         parts.append(part)
     return np.concatenate(parts) if parts else np.empty(0)
+
+
+def different(column: Any) -> set[str]:
+    """The different values of an Arrow array of any type, as text without blanks around it; null is none."""
+    found = (value for value in column.unique().to_pylist() if value is not None)
+    return {(value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)).strip() for value in found}

@@ -1,8 +1,9 @@
-"""Time stamps as a whole: the usual step from row to row, also of rows that came in packets."""
+"""Time stamps as a whole: the usual step from row to row, also of rows that came in packets, and clocks that begin anew."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,3 +67,46 @@ def usual_step(time: Floats) -> float:
         return float("nan")
     packets = packed(time)
     return float(np.median(steps)) if packets is None else packets.step
+
+
+class Turns:
+    """Stamps of a clock that begins anew at one of *ends*, block after block: they go on.
+
+    A step back passes the end where that makes it one of *most* at most; all in the stamps' unit.
+    """
+
+    def __init__(self, ends: Sequence[float], most: float) -> None:
+        self._most = most
+        self._passed = dict.fromkeys(ends, 0)
+        self._before: float | None = None
+
+    @property
+    def passed(self) -> dict[float, int]:
+        """How often which end was passed."""
+        return {end: count for end, count in self._passed.items() if count}
+
+    def of(self, time: Floats) -> Floats:
+        """The next stamps (n,) as those of a clock that never begins anew; those that are none (NaN) stay."""
+        known = np.flatnonzero(np.isfinite(time))
+        if not len(known):
+            return time
+        stamps, added = time[known], np.zeros(len(known))
+        steps = np.diff(stamps, prepend=stamps[0] if self._before is None else self._before)
+        self._before = float(stamps[-1])
+        for end, count in self._passed.items():
+            passed = count + np.cumsum((steps < 0.0) & (steps + end <= self._most))
+            self._passed[end] = int(passed[-1])
+            added += end * passed
+        if not added[-1]:
+            return time
+        time = time.copy()
+        time[known] += added
+        return time
+
+    def state(self) -> Any:
+        """What :meth:`restore` needs to go on in another process."""
+        return [list(self._passed.values()), self._before]
+
+    def restore(self, state: Any) -> None:
+        """Go on after the stamps that :meth:`state` was taken behind."""
+        self._passed, self._before = dict(zip(self._passed, state[0], strict=True)), state[1]

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from poise.errors import FormatError
-from poise.formats import names
+from poise.formats import layouts, names
+from poise.formats.devices import Devices
+from poise.formats.layouts import Column
 from poise.formats.limits import Options
 from poise.formats.table import Table, Whole
 
@@ -18,9 +21,10 @@ _NAMES = "name them gyr, acc, mag (n, 3) and time (n,) or fs, or say --columns t
 
 def to_table(where: str, kind: str, found: dict[str, NDArray[Any]], options: Options) -> Table:
     """The table in named numeric arrays; raises :class:`FormatError` where lengths or shapes do not fit."""
-    titles = names.renamed(where, list(found), options.columns, len(found))
+    titles = layouts.renamed(where, list(found), options.columns, len(found))
     columns: dict[str, NDArray[Any]] = {}
-    rate, notes = None, []
+    unused, notes = [], []
+    rate = None
     for title, array in zip(titles, found.values(), strict=True):
         parsed = names.parse(title)
         role = parsed.role
@@ -28,7 +32,11 @@ def to_table(where: str, kind: str, found: dict[str, NDArray[Any]], options: Opt
             value = float(array.reshape(-1)[0])
             rate = value if role == "rate" else 1.0 / value if value > 0 else float("nan")
             continue
-        if not role or role in ("rate", "period"):
+        if role == "device":
+            named = Column(0, title)
+            Devices(where, [named]).see(named, {f"{value:g}" for value in np.unique(array[np.isfinite(array)])})
+        if not role or role in ("rate", "period", "device", "date"):
+            unused.append(title)
             continue
         array = np.squeeze(array) if array.size != 1 else array.reshape(1)
         width = 4 if role in ("truth", "quat") else 3 if role in ("gyr", "acc", "mag", "free") else 1
@@ -45,7 +53,9 @@ def to_table(where: str, kind: str, found: dict[str, NDArray[Any]], options: Opt
         for i, part in enumerate(_PARTS[width]):
             label = role if width == 4 else role.replace("free", "freeacc")
             columns[f"{label}_{part}" + (f" ({parsed.unit})" if parsed.unit else "")] = array[:, i]
-    return _table(where, kind, columns, rate, notes, list(found), options)
+    table = _table(where, kind, columns, rate, notes, list(found), options)
+    table.layout = replace(table.layout, unused=(*unused, *table.layout.unused))
+    return table
 
 
 def _table(
@@ -61,7 +71,7 @@ def _table(
     if not columns:
         raise FormatError(f"{where}: no sensor among its arrays ({names.listed(found)}); {_NAMES}")
     titles = list(columns)
-    layout = names.choose(where, titles, timed=(rate or options.rate) is not None)
+    layout = layouts.choose(where, titles, timed=(rate or options.rate) is not None)
     used = {key: columns[titles[column.index]] for key, column in layout.columns.items()}
     lengths = {key: len(values) for key, values in used.items()}
     rows = lengths["gyr_x"]

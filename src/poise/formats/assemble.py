@@ -13,7 +13,7 @@ from poise.data.recording import Recording
 from poise.formats.decisions import Decisions, stacked
 from poise.formats.held import Fresh
 from poise.formats.names import QUAT as QUAT_NAMES
-from poise.formats.names import SENSORS
+from poise.formats.names import SENSORS, counted, listed
 from poise.formats.table import Columns, Floats, Table
 from poise.math import arrays
 
@@ -59,6 +59,7 @@ class Assembler:
         self.empty = Recording(
             np.empty(0), none, none, none, gravity=made.gravity, name=name, source=source, source_hash=digest
         )
+        self._turns = made.turns()
         self._fresh = {sensor: Fresh(usual) for sensor, usual in made.held.items()}
         self._seen: dict[str, Any] = {
             "rows": 0, "samples": dict.fromkeys(("time", *SENSORS), 0), "fresh": dict.fromkeys(made.held, 0),
@@ -89,11 +90,13 @@ class Assembler:
 
     def state(self) -> dict[str, Any]:
         """What :meth:`restore` needs."""
-        return {"seen": self._seen, "fresh": {sensor: fresh.state() for sensor, fresh in self._fresh.items()}}
+        fresh = {sensor: fresh.state() for sensor, fresh in self._fresh.items()}
+        return {"seen": self._seen, "fresh": fresh, "turns": self._turns.state()}
 
     def restore(self, state: Mapping[str, Any]) -> None:
         """Go on behind the rows that :meth:`state` was taken after."""
         self._seen = state["seen"]
+        self._turns.restore(state["turns"])
         for sensor, fresh in self._fresh.items():
             fresh.restore(state["fresh"][sensor])
 
@@ -125,6 +128,11 @@ class Assembler:
         said = [*self._table.notes, *self._made.notes]
         if not self._seen["samples"]["mag"]:
             said.append("no magnetometer: heading is arbitrary")
+        if unused := self._table.layout.unused:
+            said.append(f"not used: {listed(unused)}")
+        for end, count in self._turns.passed.items():
+            what = "it passes midnight" if self._table.daily else f"the counter begins anew at {end:.0f}"
+            said.append(f"time: {what}, {counted(count, 'time')}; the stamps go on")
         for sensor, new in self._seen["fresh"].items():
             said.append(
                 f"{sensor}: slower than the gyroscope, each sample was repeated over {self._made.held[sensor]} rows; "
@@ -144,7 +152,9 @@ class Assembler:
             time: Floats = np.arange(self.rows, self.rows + count) / made.rate
         else:
             per_second = made.factor("time")
-            time = columns["time"] / per_second if per_second != 1.0 else columns["time"]
+            time = self._turns.of(columns["time"])
+            if per_second != 1.0:
+                time = time / per_second
         before = np.nan if seen["before"] is None else seen["before"]
         steps = np.diff(time, prepend=before)
         long = steps[steps > made.gap]

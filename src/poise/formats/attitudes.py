@@ -13,8 +13,9 @@ import numpy as np
 
 from poise.data.attitude import COLUMNS, QUAT, SIGMA, Attitude, Provenance
 from poise.data.learned import Learned
+from poise.data.stamps import Turns
 from poise.errors import FormatError, RecordingError
-from poise.formats import bag, evidence, names, parquet, recognise, text, text_head, units
+from poise.formats import bag, evidence, names, parquet, recognise, text, text_head, text_stamps, units
 from poise.formats.limits import Limits, Options
 from poise.formats.names import QUAT as QUAT_NAMES
 from poise.formats.table import Floats, everything
@@ -91,7 +92,10 @@ def _from_text(where: str, path: Path, options: Options) -> tuple[dict[str, Floa
             raise FormatError(f"{where}: {found}; expected columns time, qw, qx, qy, qz, or the eight of TUM")
         wanted, unit = _wanted(where, header)
     values = everything(where, text.TextRows(where, path, dialect, wanted, options.limits), options.limits)
-    return values, dialect.facts, "s" if header == TUM or dialect.iso(wanted["time"]) else unit
+    written = dialect.written(wanted)
+    if written == text_stamps.CLOCK:
+        values["time"] = Turns([text_stamps.DAY], text_stamps.DAY / 2).of(values["time"])
+    return values, dialect.facts, "s" if header == TUM or written or dialect.iso(wanted["time"]) else unit
 
 
 def _wanted(where: str, present: tuple[str, ...] | list[str]) -> tuple[dict[str, int], str]:

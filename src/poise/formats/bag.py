@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from poise.data.recording import place
 from poise.errors import FormatError
-from poise.formats import bag_library, bag_stamps, bag_topics, bounded, names, recognise
+from poise.formats import bag_library, bag_stamps, bag_topics, bounded, layouts, names, recognise
 from poise.formats.held import fresh
 from poise.formats.limits import Limits, Options
 from poise.formats.names import QUAT
@@ -226,7 +226,7 @@ def _table(
     where: str, bag: _Bag, values: dict[str, Floats], units: dict[str, str], age: Floats | None, options: Options
 ) -> Table:
     columns: dict[str, Floats] = {}
-    titles = names.renamed(where, list(values), options.columns, len(values))
+    titles = layouts.renamed(where, list(values), options.columns, len(values))
     for field, title in zip(values, titles, strict=True):
         parsed = names.parse(title)
         if not parsed.role or parsed.role == "quat":
@@ -236,7 +236,7 @@ def _table(
         columns |= {f"{title}{end}{unit}": part for end, part in zip(ends, np.atleast_2d(values[field].T), strict=True)}
     if age is not None and age.any():
         columns["mag_age (s)"] = age
-    layout = names.choose(where, list(columns))
+    layout = layouts.choose(where, list(columns))
     found = list(columns.values())
     used = {key: np.array(found[column.index]) for key, column in layout.columns.items()}
     return Table(_NAMES[bag.kind], layout, Whole(used), {}, None, "", bag.notes, bag.doubts)

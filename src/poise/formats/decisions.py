@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from poise.data.recording import STANDARD_GRAVITY, check_unit_of_time
-from poise.data.stamps import Packed, packed, usual_step
+from poise.data.stamps import Packed, Turns, packed, usual_step
 from poise.errors import FormatError
 from poise.formats import evidence, units
 from poise.formats.evidence import Verdict
@@ -15,7 +15,11 @@ from poise.formats.held import usual_distance
 from poise.formats.limits import Options
 from poise.formats.names import SENSORS
 from poise.formats.table import Columns, Floats, Table
+from poise.formats.text_stamps import DAY
 
+_TICKS = {"sampletimefine": "100us"}  # clocks that count in a unit of their own, or in a usual one (Xsens, Movella)
+_BITS = (16, 32)  # of counters that begin anew
+_SAME = 0.9  # of the steps: a clock that stands still so often is read, but does not tell the steps
 _FREE = 3.0  # m/s²: no accelerometer on Earth shows less by its median
 
 
@@ -35,6 +39,10 @@ class Decisions:
     """how rows came that have no stamp of their own"""
     held: dict[str, int] = field(default_factory=dict)
     """sensors whose samples are repeated, and over how many rows"""
+    ends: tuple[float, ...] = ()
+    """at which the stamps may begin anew, in their own unit"""
+    across: float = 0.0
+    """the longest step over such an end, in that unit"""
     gravity: float = STANDARD_GRAVITY
     notes: list[str] = field(default_factory=list)
     doubts: list[str] = field(default_factory=list)
@@ -42,6 +50,10 @@ class Decisions:
     def factor(self, sensor: str) -> float:
         """What one unit of the file is in SI (µT for the magnetometer)."""
         return units.FACTORS[sensor][self.unit[sensor]]
+
+    def turns(self) -> Turns:
+        """What makes stamps that begin anew go on, from the first row on."""
+        return Turns(self.ends, most=self.across)
 
     @property
     def gap(self) -> float:
@@ -62,6 +74,11 @@ def decide(where: str, table: Table, options: Options) -> Decisions:
     made = Decisions()
     time = _time(where, table, sample, options, made)
     made.step, made.packets = usual_step(time), packed(time)
+    if made.rate is None and not table.own:
+        made.ends = (DAY,) if table.daily else _ends(sample["time"])
+        made.across = DAY / 2 if table.daily else made.gap * made.factor("time")
+        if made.packets is None and not options.as_is:
+            _check_coarse(where, time, table)
     if made.packets is not None:
         made.doubts.append(f"time: packets of {made.packets.words}, taken to be evenly apart")
     rows = {sensor: stacked(sample, sensor) for sensor in SENSORS if f"{sensor}_x" in sample}
@@ -94,12 +111,13 @@ def _time(where: str, table: Table, sample: Columns, options: Options, made: Dec
     if rate is not None:
         if not (np.isfinite(rate) and rate > 0):
             raise FormatError(f"{where}: a rate of {rate} samples per second; expected a number above 0 (--rate HZ)")
-        if len(stamps):
+        if "time" in table.layout.columns:
             made.notes.append(f"time: the file's own stamps are ignored for the given rate of {rate:g} Hz")
         made.unit["time"], made.how["time"], made.rate = "s", f"from the rate of {rate:g} Hz", rate
         return np.asarray(np.arange(len(sample["gyr_x"])) / rate)
     stated, how = _stated(where, "time", table, options)
-    verdict = evidence.of_time(stamps)
+    column = table.layout.columns.get("time")
+    verdict = evidence.of_time(stamps, _TICKS.get(column.word, "") if column else "")
     if not stated and not verdict.unit and len(stamps) > 1 and not options.as_is:
         raise FormatError(
             f"{where}: unit of time not named, and {verdict.sentence}; say it: --units time=s (or ms, us, ns, 100us)"
@@ -118,10 +136,34 @@ def _time(where: str, table: Table, sample: Columns, options: Options, made: Dec
     return stamps / units.FACTORS["time"][unit]
 
 
+def _check_coarse(where: str, time: Floats, table: Table) -> None:
+    """Raises :class:`FormatError` where most stamps *time* (n,) are the one before, and not as rows in packets have it."""
+    steps = np.diff(time)
+    changes = np.flatnonzero(steps != 0.0)
+    same = 1.0 - len(changes) / max(len(steps), 1)
+    if same > _SAME and len(changes) > 1:
+        hz = np.median(np.diff(changes)) / usual_step(time)
+        hint = f" ({hz:.3g}, by how many share one)" if table.time_unit else ""
+        raise FormatError(
+            f"{where}: {same:.1%} of the stamps are that of the row before: they are too coarse to tell the steps between "
+            f"rows; say --rate HZ{hint}, which makes even ones"
+        )
+
+
+def _ends(stamps: Floats) -> tuple[float, ...]:
+    """Where a counter with the whole *stamps* (n,) of a sample may begin anew: behind its highest number."""
+    known = stamps[np.isfinite(stamps)]
+    if not len(known) or known.min() < 0.0 or (known != np.floor(known)).any():
+        return ()
+    return tuple(float(2**bits) for bits in _BITS if known.max() < 2**bits)
+
+
 def _stated(where: str, sensor: str, table: Table, options: Options) -> tuple[str, str]:
     """The unit that the caller or the file names for *sensor*, and which of them; empty where neither does."""
     if sensor in options.units:
         return units.expect(sensor, options.units[sensor], where), "given"
+    if sensor == "time" and table.time_unit:
+        return table.time_unit, "calendar stamps"
     if text := table.layout.unit(sensor):
         if unit := units.named(sensor, text):
             return unit, "named by the file"
@@ -131,8 +173,8 @@ def _stated(where: str, sensor: str, table: Table, options: Options) -> tuple[st
                 f"{' or '.join(list(units.FACTORS[sensor])[:3])}"
             )
     if table.own:
-        return ("s" if sensor == "time" else units.SI[sensor]), "written by poise"
-    return (table.time_unit, "calendar stamps") if sensor == "time" and table.time_unit else ("", "")
+        return units.SI[sensor], "written by poise"
+    return "", ""
 
 
 def _sensor(

@@ -16,6 +16,7 @@ RATES = (5.0, 10e3)  # 1/s: gyroscopes in use
 _STRETCH, _STRETCHES = 25_000, 8  # rows looked at: evenly spread over a long recording
 _WINDOW = 0.1  # s: longer than vibration, shorter than most turns
 _SURE = 8.0  # standard errors between the fitted factor and none at all; neighbouring windows are not independent
+_CLOCKS = ("s", "ms", "us", "ns")
 _CANDIDATES = ("rad/s", "deg/s", "mdeg/s")
 
 
@@ -28,13 +29,18 @@ class Verdict(NamedTuple):
     """time: usual step; acc: median length; gyr: fitted rad/s per unit; all in the file's own units"""
 
 
-def of_time(time: Floats) -> Verdict:
-    """Which unit gives the stamps (n,) a rate that gyroscopes have."""
+def of_time(time: Floats, ticks: str = "") -> Verdict:
+    """Which unit gives the stamps (n,) a rate that gyroscopes have.
+
+    *ticks* is a unit that counts only where a clock is known for it ("100us"), and then before all others.
+    """
     step = usual_step(time)
     if not step > 0.0:
         return Verdict("", "no stamp rises above the one before")
-    rates = {unit: per_second / step for unit, per_second in FACTORS["time"].items() if unit != "100us"}
+    rates = {unit: per_second / step for unit, per_second in FACTORS["time"].items() if unit in (*_CLOCKS, ticks)}
     fits = [unit for unit, rate in rates.items() if RATES[0] <= rate <= RATES[1]]
+    if ticks in fits:
+        fits = [ticks]
     if len(fits) == 1:
         return Verdict(fits[0], f"its usual step {step:.6g} means {rates[fits[0]]:.1f} samples per second", step)
     maybe = " or ".join(f"{rates[unit]:.4g} Hz in {unit}" for unit in fits) or "no rate of a gyroscope in any unit"

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 from poise.data import arrow
 from poise.errors import FormatError
-from poise.formats import names
+from poise.formats import layouts
+from poise.formats.devices import Devices
+from poise.formats.layouts import Column
 from poise.formats.limits import Options, check_expansion
 from poise.formats.table import BLOCK, KIND, Block, Columns, Table, joined, stretches
+
+_RATE = " or time stamps; with --rate HZ the column is left out"
 
 
 def read(path: Path, options: Options) -> Table:
@@ -21,10 +25,12 @@ def read(path: Path, options: Options) -> Table:
         if facts.get(KIND) == "attitude":
             raise FormatError(f"{where}: an attitude that poise wrote, not a recording; read it with read_attitude")
         options.limits.check(where, "columns", len(file.schema_arrow.names))
-        header = names.renamed(where, file.schema_arrow.names, options.columns, len(file.schema_arrow.names))
-        layout = names.choose(where, header, timed=options.rate is not None)
+        header = layouts.renamed(where, file.schema_arrow.names, options.columns, len(file.schema_arrow.names))
+        layout = layouts.choose(where, header, timed=options.rate is not None)
         wanted = {key: file.schema_arrow.names[column.index] for key, column in layout.columns.items()}
-        rows = ParquetRows(where, path, file, wanted, options)
+        if options.rate is not None:
+            wanted.pop("time", None)  # which may hold anything then
+        rows = ParquetRows(where, path, file, wanted, options, layout.devices)
     return Table("Parquet", layout, rows, facts, None, "s" if rows.calendar else "", list(layout.notes))
 
 
@@ -52,10 +58,19 @@ class ParquetRows:
     Raises :class:`FormatError` where the footer promises more than there can be, or a column holds no numbers.
     """
 
-    def __init__(self, where: str, path: Path, file: Any, wanted: dict[str, str], options: Options) -> None:
+    def __init__(
+        self,
+        where: str,
+        path: Path,
+        file: Any,
+        wanted: dict[str, str],
+        options: Options,
+        devices: Sequence[Column] = (),
+    ) -> None:
         import pyarrow
 
         self._where, self._path, self._wanted = where, path, wanted
+        self._devices = Devices(where, devices)
         self.count = int(file.metadata.num_rows)
         if self.count <= 0:
             raise FormatError(f"{where}: no rows")
@@ -68,7 +83,9 @@ class ParquetRows:
             if pyarrow.types.is_timestamp(kind) and key == "time":
                 self.calendar = True
             elif not _is_number(kind):
-                raise FormatError(f"{where}: column {name!r} ({key}) holds {kind}, expected numbers")
+                raise FormatError(
+                    f"{where}: column {name!r} ({key}) holds {kind}, expected numbers{_RATE * (key == 'time')}"
+                )
 
     def sample(self) -> Columns:
         """Every row of a short file, else evenly spread stretches of it."""
@@ -112,10 +129,13 @@ class ParquetRows:
             raise FormatError(f"{self._where}: damaged Parquet file ({_short(problem)}); {advice}") from None
 
     def _group(self, file: Any, group: int, start: int, parts: list[slice]) -> Iterator[Block]:
-        names = list(self._wanted.values())
+        devices = {column: file.schema_arrow.names[column.index] for column in self._devices.columns}
+        names = [*self._wanted.values(), *devices.values()]
         for batch in file.iter_batches(BLOCK, row_groups=[group], columns=names, use_threads=False):
             end = start + batch.num_rows
             if any(part.start < end and part.stop > start for part in parts):
+                for column, name in devices.items():
+                    self._devices.see(column, arrow.different(batch.column(name)))
                 columns = {key: arrow.floats(batch.column(name)) for key, name in self._wanted.items()}
                 yield Block((start,), columns)
             start = end

@@ -9,8 +9,8 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from poise.formats.layouts import Layout
 from poise.formats.limits import Limits
-from poise.formats.names import Layout
 
 Floats = NDArray[np.float64]
 Columns = dict[str, Floats]
@@ -54,6 +54,8 @@ class Table:
     notes: list[str] = field(default_factory=list)
     doubts: list[str] = field(default_factory=list)
     """both may still grow while the last rows are read"""
+    daily: bool = False
+    """whether time is that of a day, which begins anew at midnight"""
 
     @property
     def own(self) -> bool:

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import codecs
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy as np
 
 from poise.errors import FormatError
-from poise.formats import names, text_head
+from poise.formats import layouts, names, text_head, text_stamps
+from poise.formats.devices import Devices
+from poise.formats.layouts import Column
 from poise.formats.limits import Limits, Options
 from poise.formats.table import KIND, STRETCH, STRETCHES, Block, Columns, Table, joined
 from poise.formats.text_head import Dialect
@@ -29,25 +32,50 @@ def read(path: Path, options: Options) -> Table:
         dialect = text_head.inspect(where, head, not file.read(1), options)
     if dialect.facts.get(KIND) == "attitude":
         raise FormatError(f"{where}: an attitude that poise wrote, not a recording; read it with read_attitude")
-    header = names.renamed(where, dialect.names, options.columns, len(dialect.first))
-    layout = names.choose(where, header, timed=options.rate is not None)
+    header = layouts.renamed(where, dialect.names, options.columns, len(dialect.first))
+    layout = layouts.choose(where, header, timed=options.rate is not None)
     columns = {key: column.index for key, column in layout.columns.items()}
-    rows = TextRows(where, path, dialect, columns, options.limits)
+    if options.rate is not None:
+        columns.pop("time", None)  # which may hold anything then
+    if layout.date and dialect.written(columns) == text_stamps.CLOCK:
+        dated = columns | {"date": layout.date.index}
+        if dialect.written(dated) != text_stamps.CLOCK:
+            columns = dated
+            layout = replace(layout, unused=tuple(name for name in layout.unused if name != layout.date.name))
+    written = dialect.written(columns)
+    rows = TextRows(where, path, dialect, columns, options.limits, layout.devices)
     rows.notes += [*dialect.notes, *layout.notes]
-    calendar = "s" if dialect.iso(columns.get("time")) else ""
-    return Table(dialect.sentence, layout, rows, dialect.facts, None, calendar, rows.notes, rows.doubts)
+    return Table(
+        dialect.sentence,
+        layout,
+        rows,
+        dialect.facts,
+        time_unit="s" if written or dialect.iso(columns.get("time")) else "",
+        daily=written == text_stamps.CLOCK,
+        notes=rows.notes,
+        doubts=rows.doubts,
+    )
 
 
 class TextRows:
-    """The rows of a text file; *columns* is key to column number. Its position is a byte, a line and lines to skip.
+    """The rows of a text file; *columns* is key to column number.
 
+    Its position is a byte, a line, lines to skip, and how many lines of text were left out before.
     *notes* and *doubts* grow when the end of the file is read. Raises :class:`FormatError` with line, column and
     reason where a row is not right.
     """
 
-    def __init__(self, where: str, path: Path, dialect: Dialect, columns: dict[str, int], limits: Limits) -> None:
+    def __init__(
+        self,
+        where: str,
+        path: Path,
+        dialect: Dialect,
+        columns: dict[str, int],
+        limits: Limits,
+        devices: Sequence[Column] = (),
+    ) -> None:
         self._where, self._path, self._dialect, self._limits = where, path, dialect, limits
-        self._parser = Parser(where, dialect, columns)
+        self._columns, self._devices = columns, Devices(where, devices)
         self._kept: list[Block] | None = None  # a small file is parsed once, for sample and rows
         self.notes: list[str] = []
         self.doubts: list[str] = []
@@ -76,8 +104,8 @@ class TextRows:
         if self._kept is not None:
             yield from (block for block in self._kept if position is None or block.position >= tuple(position))
             return
-        found = position is not None
-        for at, columns, ended in self._parsed(position):
+        found, parser = position is not None, self._parser(position)
+        for at, columns, ended in self._parsed(parser, position):
             if columns is None:
                 self.notes.append(f"line {at[1]}: the last row is cut short and left out")
                 continue
@@ -85,22 +113,31 @@ class TextRows:
                 self.doubts.append("the file does not end with a line break: its last row may be cut short")
             found = True
             yield Block(at, columns)
+        if parser.texts:
+            self.notes.append(f"{names.counted(parser.texts, 'line')} of text between the rows, left out")
         if not found:
             raise FormatError(f"{self._where}: no whole row of numbers found; expected one sample a line")
 
-    def _parsed(self, position: tuple[int, ...] | None) -> Iterator[tuple[tuple[int, ...], Columns | None, bool]]:
+    def _parser(self, position: tuple[int, ...] | None) -> Parser:
+        return Parser(self._where, self._dialect, self._columns, self._devices, texts=position[3] if position else 0)
+
+    def _parsed(
+        self, parser: Parser, position: tuple[int, ...] | None
+    ) -> Iterator[tuple[tuple[int, ...], Columns | None, bool]]:
         """Blocks with rows, None for a last row that is cut short, and whether a line break ends them."""
+        place = position and position[:3]
         with self._path.open("rb") as file:
-            for at, line, block, ended in _lines(self._where, file, self._dialect, self._limits, position):
-                if not ended and self._parser.is_cut(block):
+            for at, line, block, ended in _lines(self._where, file, self._dialect, self._limits, place):
+                at = (*at, parser.texts)
+                if not ended and parser.is_cut(block):
                     yield at, None, ended
-                elif (rows := self._parser.rows(line, block)) is not None:
+                elif (rows := parser.rows(line, block)) is not None:
                     yield at, rows, ended
 
     def _stretch(self, position: tuple[int, ...] | None) -> list[Columns]:
         parts: list[Columns] = []
         missing = STRETCH
-        for at, columns, _ in self._parsed(position):
+        for at, columns, _ in self._parsed(self._parser(position), position):
             if columns is None or missing <= 0 or at[0] - (position or (0,))[0] > _STRETCH_BYTES:
                 break
             parts.append({key: values[:missing] for key, values in columns.items()})
@@ -119,7 +156,7 @@ class TextRows:
         while at < len(window) and window[at : at + wide] not in (feed, back):
             at += wide
         at += 2 * wide if window[at : at + 2 * wide] == back + feed else wide
-        return offset + at, 0, 0
+        return offset + at, 0, 0, 0
 
 
 def _lines(

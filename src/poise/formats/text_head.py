@@ -6,15 +6,16 @@ import csv
 import json
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import product
 
 from poise.errors import FormatError
-from poise.formats import units
+from poise.formats import text_names, text_stamps
 from poise.formats.limits import Options
-from poise.formats.names import listed, parse
+from poise.formats.names import parse
+from poise.formats.text_names import Above
 
 COMMENTS = ("#", "//", "%")
 MISSING = ("", "nan", "NaN", "NAN", "-nan", "-NaN", "NA", "N/A", "null", "NULL", "None", "none")
@@ -46,7 +47,19 @@ class Dialect:
 
     def iso(self, column: int | None) -> bool:
         """Whether that column holds calendar stamps (ISO 8601) instead of numbers."""
-        return column is not None and ISO.fullmatch(self.first[column]) is not None
+        return column is not None and _is_iso(self.first[column])
+
+    def written(self, columns: Mapping[str, int]) -> str:
+        """The pattern of "time" in words other than ISO 8601, with the day in "date" if that is given; "" for numbers."""
+        if "time" not in columns or self.iso(columns["time"]):
+            return ""
+        cell = self.first[columns["time"]]
+        day = text_stamps.date(self.first[columns["date"]]) if "date" in columns else ""
+        return (
+            text_stamps.both(day)
+            if day and text_stamps.clock(cell)
+            else text_stamps.clock(cell) or text_stamps.dated(cell)
+        )
 
     @property
     def sentence(self) -> str:
@@ -97,12 +110,12 @@ def inspect(where: str, head: bytes, whole: bool, options: Options) -> Dialect:
     ]
     comments = [line.strip().lstrip("#%/").strip() for line in lines if _is_comment(line)]
     facts = dict(_fact(line) for line in comments if line.startswith("poise.") and ": " in line)
-    delimiter, decimal = _delimiter(where, [line for _, line in body], told, options.decimal)
-    skip, first = next(
-        ((i, split(line, delimiter)) for i, line in body if _share(split(line, delimiter), decimal) >= 0.5), (-1, [])
-    )
-    texts = [split(line, delimiter) for i, line in body if i < skip]
-    names = _names(where, texts, comments, delimiter, first, skip, notes)
+    delimiter, decimal, width = _delimiter(where, [line for _, line in body], told, options.decimal)
+    rows = [(i, split(line, delimiter)) for i, line in body]
+    skip, first = next((i, cells) for i, cells in rows if len(cells) == width and _share(cells, decimal) >= 0.5)
+    above = [Above(i + 1, lines[i].strip(), cells, _share(cells, decimal) >= 0.5) for i, cells in rows if i < skip]
+    said = [split(comment, delimiter) for comment in comments]
+    names = text_names.find(where, above, said, first, skip + 1, options.columns is not None, notes)
     options.limits.check(where, "columns", len(first))
     return Dialect(encoding, bom, delimiter, decimal, names, skip, tuple(first), facts, tuple(notes))
 
@@ -123,23 +136,32 @@ def _decode(head: bytes, encoding: str) -> str:
         return head.decode("cp1252", "replace")
 
 
+def _is_iso(cell: str) -> bool:
+    return ISO.fullmatch(cell) is not None and "," not in cell
+
+
+def _is_stamp(cell: str) -> bool:
+    return ":" in cell and bool(_is_iso(cell) or text_stamps.clock(cell) or text_stamps.dated(cell))
+
+
 def _is_comment(line: str) -> bool:
     return line.lstrip().startswith(COMMENTS)
 
 
-def _delimiter(where: str, lines: list[str], told: str | None, decimal: str | None) -> tuple[str, str]:
+def _delimiter(where: str, lines: list[str], told: str | None, decimal: str | None) -> tuple[str, str, int]:
+    """What separates cells and decimals, and how many cells a row has."""
     if told is not None:
         told = _WORDS.get(told, told)
         if len(told) != 1 or (not told.isprintable() and told != "\t") or told.isalnum() or told in '."+-':
             raise FormatError(f'{where}: --delimiter {told!r} not understood; expected one character, "tab" or "space"')
     if decimal not in (None, ".", ","):
         raise FormatError(f'{where}: --decimal {decimal!r} not understood; expected "." or ","')
-    best, choice = (0.0, 0), None
+    best, choice = (0.0, 0), ("", "")
     for delimiter, mark in product(told or _DELIMITERS, decimal or ".,"):
         if (score := _score(lines, delimiter, mark)) > best:
             best, choice = score, (delimiter, mark)
-    if choice is not None:
-        return choice
+    if best[1]:
+        return *choice, best[1]
     if (told or decimal) and max(_score(lines, *each) for each in product(_DELIMITERS, ".,")) > (0.0, 0):
         given = [f"{name} {value!r}" for name, value in (("--delimiter", told), ("--decimal", decimal)) if value]
         raise FormatError(f"{where}: no rows of numbers with {' and '.join(given)}; without, there are: leave it out")
@@ -164,41 +186,5 @@ def _share(cells: Sequence[str], decimal: str) -> float:
     """How much of a row is numbers, stamps or nothing; 0 where not even one number is there."""
     pattern = number_pattern(decimal)
     numbers = sum(pattern.fullmatch(cell) is not None for cell in cells)
-    other = sum(cell in MISSING or ISO.fullmatch(cell) is not None for cell in cells)
+    other = sum(cell in MISSING or _is_stamp(cell) for cell in cells)
     return (numbers + other) / len(cells) if numbers else 0.0
-
-
-def _names(
-    where: str,
-    texts: list[list[str]],
-    comments: list[str],
-    delimiter: str,
-    first: list[str],
-    skip: int,
-    notes: list[str],
-) -> tuple[str, ...] | None:
-    if texts:
-        cells = texts.pop()
-        if texts and all(not cell or units.is_unit(cell.strip("()[]")) for cell in cells):
-            row = cells
-            cells = texts.pop()
-            cells = [f"{name} ({unit.strip('()[]')})" if unit else name for name, unit in zip(cells, row, strict=False)]
-        if texts:
-            notes.append(f"{len(texts)} lines before the column names are left out")
-    else:
-        last = [split(comment, delimiter) for comment in comments]
-        cells = next((row for row in reversed(last) if _names_columns(row, len(first))), [])
-        if not cells:
-            return None
-    if len(cells) == len(first) - 1 and not first[-1]:
-        cells = [*cells, ""]
-    if len(cells) != len(first):
-        raise FormatError(
-            f"{where}: line {skip + 1} has {len(first)} cells, the header above it names {len(cells)} columns "
-            f"({listed(cells)}); if the delimiter or the decimal sign was not recognised, say --delimiter or --decimal"
-        )
-    return tuple(cells)
-
-
-def _names_columns(cells: list[str], width: int) -> bool:
-    return len(cells) == width and sum(bool(parse(cell).role) for cell in cells) >= 2

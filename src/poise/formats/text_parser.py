@@ -9,7 +9,8 @@ from typing import Any
 
 from poise.data import arrow
 from poise.errors import FormatError
-from poise.formats import text_head
+from poise.formats import text_head, text_stamps
+from poise.formats.devices import Devices
 from poise.formats.table import Columns
 from poise.formats.text_head import Dialect
 
@@ -25,8 +26,15 @@ class Parser:
     where: str
     dialect: Dialect
     columns: dict[str, int]
+    devices: Devices
+    texts: int = 0
+    """lines of text between the rows so far, which are left out"""
     _above: list[bytes] = field(default_factory=list)
     """the last lines that were parsed"""
+
+    def __post_init__(self) -> None:
+        marks = re.escape(self.dialect.delimiter.encode()) + rb"\t" * (self.dialect.delimiter == " ")
+        self._text = re.compile(rb"(?m)^[^0-9\n" + marks + rb"]+$")  # a row has digits, or more cells
 
     def rows(self, line: int, block: bytes) -> Columns | None:
         """The wanted columns of one block; None where it holds no row."""
@@ -40,26 +48,50 @@ class Parser:
 
         self._above = block.rsplit(b"\n", _ABOVE + 2)[1:]
         try:
-            table = self._parse(block)
+            table, stamps = self._table(block)
         except pyarrow.ArrowException as problem:
+            without, count = self._text.subn(b"", block)
+            if count:
+                self.texts += count
+                return self.rows(line, without)
             self._refuse(line, block, str(problem))
+        for column in self.devices.columns:
+            self.devices.see(column, arrow.different(table.column(f"c{column.index}")))
+        words = ("time", "date") if stamps else ()
+        numbers = {key: arrow.floats(table.column(f"c{i}")) for key, i in self.columns.items() if key not in words}
+        return {**stamps, **numbers}
+
+    def _table(self, block: bytes) -> tuple[Any, Columns]:
+        """The cells of a block, and its stamps if they are in words; raises ``ArrowInvalid`` where a line is not right."""
+        import pyarrow
+
+        table = self._parse(block)
         expected = block.count(b"\n") + (not block.endswith(b"\n"))
-        if table.num_rows != expected:
-            expected -= len(re.findall(rb"(?m)^\n", block))
-            if table.num_rows != expected:
-                self._refuse(line, block, f"{expected} lines gave {table.num_rows} rows")
-        return {key: arrow.floats(table.column(f"c{index}")) for key, index in self.columns.items()}
+        if table.num_rows not in (expected, expected - len(re.findall(rb"(?m)^\n", block))):
+            raise pyarrow.ArrowInvalid(f"{expected} lines gave {table.num_rows} rows")
+        return table, self._stamps(table)
+
+    def _stamps(self, table: Any) -> Columns:
+        """The time in s where it is written in words."""
+        pattern = self.dialect.written(self.columns)
+        if not pattern:
+            return {}
+        texts = [table.column(f"c{self.columns[key]}") for key in ("date", "time") if key in self.columns]
+        return {"time": text_stamps.seconds(texts, pattern)}
 
     def _parse(self, block: bytes) -> Any:
         import pyarrow
         from pyarrow import csv
 
         width = [f"c{i}" for i in range(len(self.dialect.first))]
-        types: dict[str, Any] = {f"c{index}": pyarrow.float64() for index in self.columns.values()}
+        types: dict[str, Any] = {f"c{column.index}": pyarrow.binary() for column in self.devices.columns}
+        types |= {f"c{index}": pyarrow.float64() for index in self.columns.values()}
         time = self.columns.get("time")
         if time is not None and self.dialect.iso(time):
             zoned = not re.search(r"\d$", cell := self.dialect.first[time]) or bool(re.search(r":\d\d.*[+-]\d\d", cell))
             types[f"c{time}"] = pyarrow.timestamp("ns", "UTC" if zoned else None)
+        elif self.dialect.written(self.columns):
+            types |= {f"c{self.columns[key]}": pyarrow.string() for key in ("date", "time") if key in self.columns}
         return csv.read_csv(
             io.BytesIO(block),
             csv.ReadOptions(use_threads=False, block_size=max(len(block) + 1, 1024), column_names=width),
@@ -68,6 +100,7 @@ class Parser:
                 column_types=types,
                 include_columns=list(types),
                 null_values=list(text_head.MISSING),
+                strings_can_be_null=True,
                 decimal_point=self.dialect.decimal,
             ),
         )
@@ -97,6 +130,10 @@ class Parser:
             return True
         if index == self.columns.get("time") and self.dialect.iso(index):
             return text_head.ISO.fullmatch(cell) is not None
+        if index == self.columns.get("date"):
+            return bool(text_stamps.date(cell))
+        if index == self.columns.get("time") and self.dialect.written(self.columns):
+            return bool(text_stamps.clock(cell) or text_stamps.dated(cell))
         return text_head.number_pattern(self.dialect.decimal).fullmatch(cell) is not None
 
     def _refuse(self, line: int, block: bytes, problem: str) -> Any:
@@ -122,12 +159,14 @@ class Parser:
                 label = (self.dialect.names or ())[bad[0] : bad[0] + 1]
                 raise FormatError(
                     f"{self.where}: line {number}, column {bad[0] + 1} ({label[0] if label else keys[bad[0]]}): "
-                    f"found {cells[bad[0]][:40]!r}, expected a number{self._advice(cells[bad[0]])}"
+                    f"found {cells[bad[0]][:40]!r}, {self._advice(keys[bad[0]], cells[bad[0]])}"
                 )
         raise FormatError(f"{self.where}: after line {line}: {problem}")
 
-    def _advice(self, cell: str) -> str:
+    def _advice(self, key: str, cell: str) -> str:
+        if key in ("time", "date") and re.search(r"\d[-:/]\d", cell):
+            return f"expected stamps like {text_stamps.EXAMPLES}; with --rate HZ the column is left out"
         other = "," if self.dialect.decimal == "." else "."
         if text_head.number_pattern(other).fullmatch(cell):
-            return f'; if the decimal sign is "{other}", say --decimal "{other}"'
-        return "; leave the cell empty where a sample is missing"
+            return f'expected a number; if the decimal sign is "{other}", say --decimal "{other}"'
+        return "expected a number; leave the cell empty where a sample is missing"

@@ -20,7 +20,7 @@ FACTORS: dict[str, dict[str, float]] = {
     "mag": {"µT": 1.0, "T": 1e6, "mT": 1e3, "nT": 1e-3, "G": 100.0, "mG": 0.1, AS_FOUND: 1.0},
 }
 
-# Spellings, after _plain: lower case, no blanks, no ^ * · ², µ as u, ° as deg.
+# Spellings, after _plain: lower case, no blanks, no ^ * · ( ) ², µ as u, ° as deg.
 _SPELLINGS: dict[str, dict[str, str]] = {
     "time": {
         "s": "s sec secs second seconds",
@@ -51,6 +51,7 @@ _SPELLINGS: dict[str, dict[str, str]] = {
         AS_FOUND: "a.u. au a.u arb arb. raw counts normalized normalised 1 lsb",
     },
 }
+_BY_CASE = {"g": "acc", "mg": "acc", "mG": "mag"}  # a G alone is written for both
 _WORDS = {
     sensor: {word: unit for unit, words in table.items() for word in words.split()}
     | {unit.lower().replace("µ", "u").replace("²", "2"): unit for unit in table}
@@ -72,6 +73,12 @@ def expect(sensor: str, text: str, where: str) -> str:
     return unit
 
 
+def sensor(text: str) -> str:
+    """The one sensor (or "time") whose unit *text* is; "" where it is none's, or may be that of two."""
+    found = [name for name in FACTORS if named(name, text) not in (None, AS_FOUND)]
+    return found[0] if len(found) == 1 else _BY_CASE.get(text.strip(), "")
+
+
 def is_unit(text: str) -> bool:
     """Whether *text* is a unit of anything that a recording holds."""
     return any(named(sensor, text) for sensor in FACTORS)
@@ -80,4 +87,4 @@ def is_unit(text: str) -> bool:
 def _plain(text: str) -> str:
     text = text.strip().lower().replace("µ", "u").replace("μ", "u").replace("²", "2").replace("°", "deg")
     text = text.replace("⁻¹", "-1").replace("⁻²", "-2").replace("per ", "/")
-    return re.sub(r"[\s^*·_]", "", text)
+    return re.sub(r"[\s^*·_()]", "", text)

@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from poise.data.stamps import Turns
 from poise.formats import names, units
 from poise.live import frames, texts
 from poise.live.devices import DeviceError
@@ -205,7 +206,9 @@ class Decoder:
         self._short = description is None  # the usual lines may leave the magnetometer out
         self._buffer = b""
         self._began = bool(self._description.layout)  # text may begin in the middle of a line
-        self._count, self._turns, self._last = 0, 0, None
+        self._count = 0
+        whole = self._description.wraps
+        self._turns = Turns([whole], most=0.5 * whole)
         self.rejected = 0
 
     def feed(self, data: bytes) -> Floats:
@@ -307,15 +310,6 @@ class Decoder:
         if self._description.rate:
             rows[:, 0] = (self._count + np.arange(len(rows))) / self._description.rate
         elif self._description.wraps:
-            self._unwrap(rows[:, 0])
+            rows[:, 0] = self._turns.of(rows[:, 0])
         self._count += len(rows)
         return rows
-
-    def _unwrap(self, time: Floats) -> None:
-        """A counter of few bits begins anew: stamps go on."""
-        whole = self._description.wraps
-        before = time[0] if self._last is None else self._last
-        self._last = time[-1].copy()
-        back = np.diff(time, prepend=before) < -0.5 * whole
-        time += whole * (self._turns + np.cumsum(back))
-        self._turns += int(back.sum())
