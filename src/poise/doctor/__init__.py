@@ -10,7 +10,7 @@ import numpy as np
 from poise.data.corrections import Corrections
 from poise.data.recording import Recording
 from poise.data.stamps import packed
-from poise.doctor import axes, offsets, rate_units, samples, timing, turning, units
+from poise.doctor import axes, exchange, gravity, offsets, rate_units, samples, timing, turning, units
 from poise.doctor.axes import Hemisphere
 from poise.doctor.findings import RANK, Diagnosis, Evidence, Finding
 from poise.doctor.rate_units import Context
@@ -102,6 +102,9 @@ def _of_units_and_axes(
         length = recording.gravity / (of_acc.fix.factors["acc"] if of_acc else 1.0)
     lengths = Lengths(length, _usual(blocks.mag))
     as_is = with_factor(blocks, 1.0, lengths)
+    if swapped := exchange.exchanged(blocks, as_is, lengths.mag, read_as):
+        return [swapped, *([clock.finding] if clock.finding else [])], None
+    of_acc = gravity.removed(blocks, as_is, length, known=of_acc is None or bool(of_acc.fix)) or of_acc
     found = [f for f in (of_acc, units.of_mag(recording)) if f]
     free = of_acc is not None and of_acc.name == "acc gravity"
     if free:
