@@ -104,7 +104,8 @@ def _of_units_and_axes(
     as_is = with_factor(blocks, 1.0, lengths)
     if swapped := exchange.exchanged(blocks, as_is, lengths.mag, read_as):
         return [swapped, *([clock.finding] if clock.finding else [])], None
-    of_acc = gravity.removed(blocks, as_is, length, known=of_acc is None or bool(of_acc.fix)) or of_acc
+    known = of_acc is None or bool(of_acc.fix)
+    of_acc = gravity.removed(blocks, as_is, length, known=known, clocks=clock.others) or of_acc
     found = [f for f in (of_acc, units.of_mag(recording)) if f]
     free = of_acc is not None and of_acc.name == "acc gravity"
     if free:

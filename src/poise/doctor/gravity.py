@@ -7,6 +7,8 @@ and is none when the motion pauses.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -29,22 +31,27 @@ _LITTLE = 0.35  # of gravity
 _WINDOWS = 4  # to judge by the field
 
 
-def removed(found: Blocks, as_is: Rates, gravity: float, *, known: bool) -> Finding | None:
-    """Whether gravity was removed; *gravity* is its length in the sensor's own unit, where that unit is *known*."""
+def removed(
+    found: Blocks, as_is: Rates, gravity: float, *, known: bool, clocks: Sequence[float] = ()
+) -> Finding | None:
+    """Whether gravity was removed; *gravity* is its length in the sensor's own unit, where that unit is *known*.
+
+    *clocks* are factors that the stamps may lack: a calm must be long enough by each of them.
+    """
     by_axes = np.median(as_is.acc.long, axis=0) if len(as_is.acc.long) else np.zeros(48)
     scatter = float(np.median(as_is.acc.loss, axis=0).min()) if len(as_is.acc.loss) else np.inf
     if by_axes.max() > _STANDS and scatter < _SCATTER:
         return None
-    why = _by_calm(found, gravity, known)
+    why = _by_calm(found, gravity, known, _CALM / min(1.0, *clocks, 1.0))
     if not why and known and scatter > _SCATTER and by_axes[0] < _LITTLE:
         why = _by_field(as_is, float(by_axes[0]))
     return Finding("acc gravity", "sure", f"{why}: gravity was removed. {WANTED}", decided=False) if why else None
 
 
-def _by_calm(found: Blocks, gravity: float, known: bool) -> str:
-    """Why the calmest stretch of 5 s has no gravity; empty where it has, or there is none."""
+def _by_calm(found: Blocks, gravity: float, known: bool, calm: float) -> str:
+    """Why the calmest stretch of *calm* s has no gravity; empty where it has, or there is none."""
     length = np.sqrt(np.einsum("ij,ij->i", found.acc, found.acc))
-    count = round(_CALM / found.width)
+    count = round(calm / found.width)
     there = np.isfinite(length)
     if len(length) < count or not there.any():
         return ""
@@ -60,10 +67,10 @@ def _by_calm(found: Blocks, gravity: float, known: bool) -> str:
     steady = float(np.quantile(stretch, 0.1)) > _STEADY * mean
     if mean >= _FAR * usual and not (known and not steady and mean < _HALF * gravity):
         return ""
-    unit = " m/s²" if known else ""
+    unit, wanted = (" m/s²", f"{gravity:.4g}") if known else ("", f"nearly the usual {usual:.3g}")
     return (
-        f"the mean length of the specific force over 5 s, {at * found.width:.1f} s after the start, is {mean:.3g}{unit}, where "
-        f"gravity alone would be {f'{gravity:.4g}' if known else f'nearly the usual {usual:.3g}'}"
+        f"the mean length of the specific force over {calm:g} s, {at * found.width:.1f} s after the start, is {mean:.3g}{unit}, "
+        f"where gravity alone would be {wanted}"
     )
 
 
