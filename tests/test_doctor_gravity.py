@@ -62,6 +62,20 @@ def test_a_sensor_that_fails_for_a_while_has_gravity() -> None:
         assert "acc gravity" not in sure(recording.with_samples(acc=acc))
 
 
+def test_a_slow_clock_is_no_calm() -> None:
+    """Half a second that passes for five: in a fast motion to and fro the force is short for so long."""
+    piece = trial("15_undisturbed_fast_translation_A", 45.0, 60.0)[::8]
+    slow = piece.with_samples(time=10.0 * piece.time)
+    found = diagnose(slow, read_as={"time": "ms"}, guessed={"time"}, thorough=False)
+    assert "acc gravity" not in [f.name for f in found.findings]
+
+
+def test_what_hides_that_gravity_is_absent_is_not_taken_for_axes() -> None:
+    """No pause, no magnetometer: an acceleration to and fro stands still better in other axes, and not well."""
+    wrong = alone(without_gravity(trial("15_undisturbed_fast_translation_A", 60.0, 120.0)))
+    assert not sure(wrong)
+
+
 def test_it_is_refused_and_can_be_forced(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     wrong = without_gravity(trial("21_undisturbed_fast_combined", 20.0, 60.0))
     poise.write(wrong, tmp_path / "lin.csv")

@@ -69,8 +69,8 @@ def _by_calm(found: Blocks, gravity: float, known: bool, calm: float) -> str:
         return ""
     unit, wanted = (" m/s²", f"{gravity:.4g}") if known else ("", f"nearly the usual {usual:.3g}")
     return (
-        f"the mean length of the specific force over {calm:g} s, {at * found.width:.1f} s after the start, is {mean:.3g}{unit}, "
-        f"where gravity alone would be {wanted}"
+        f"the mean length of the force over {calm:g} s, {at * found.width:.1f} s after the start, is {mean:.3g}{unit}; "
+        f"gravity alone would be {wanted}"
     )
 
 
