@@ -21,6 +21,7 @@ from poise.doctor.units import WANTED
 Floats = NDArray[np.float64]
 
 _CALM = 5.0  # s
+_FEWEST = 10  # blocks of a stretch
 _KNOWN = 0.9  # of the blocks of a stretch hold a sample
 _HALF = 0.5  # of gravity
 _FAR = 0.15  # of the usual length: no unit and no motion make that of what has gravity in it
@@ -53,7 +54,7 @@ def _by_calm(found: Blocks, gravity: float, known: bool, calm: float) -> str:
     length = np.sqrt(np.einsum("ij,ij->i", found.acc, found.acc))
     count = round(calm / found.width)
     there = np.isfinite(length)
-    if len(length) < count or not there.any():
+    if not _FEWEST <= count <= len(length) or not there.any():
         return ""
     filled = np.where(there, length, 0.0)
     enough = _sums(there.astype(float), count)

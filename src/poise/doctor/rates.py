@@ -28,6 +28,7 @@ _BETWEEN = 10.0 ** (np.arange(-28, 13) / 8)  # factors beside the units: a step 
 _BESIDE = 10.0 ** (np.delete(np.arange(-8, 9), 8) / 8)
 _NEAR = 1.04 ** np.arange(-6, 7)  # about a factor that was fitted
 _OFF = np.array([0.94, 1.06])  # by more no gyroscope's scale is off: raw counts of 16.4 a °/s are nearly mrad/s
+_LOOKED_AT = 20_000  # blocks are enough for a fit
 FASTEST = 100.0  # rad/s: 16 turns a second; an accelerometer 1 mm from the axis would feel more than gravity
 
 
@@ -164,8 +165,10 @@ def _unexplained(
     found: Blocks, tried: list[Rates], units: list[Unit], lengths: Lengths, open_: tuple[Unit, ...], thorough: bool
 ) -> Judged:
     """No unit explains the turning; where *thorough*, whether another factor does."""
-    factors = np.concatenate([_BETWEEN, *(fitted * _NEAR for fitted in _fitted(found))])
-    other = _beside(found, tried[0], lengths, factors) if thorough else None
+    other = None
+    if thorough:
+        factors = np.concatenate([_BETWEEN, *(fitted * _NEAR for fitted in _fitted(found))])
+        other = _beside(found, tried[0], lengths, factors)
     return Judged(None, other or tried[0], factor=other.factor if other else None, open=open_)
 
 
@@ -193,15 +196,16 @@ def _fitted(found: Blocks) -> list[float]:
     rate = (found.gyr[2:] + 2 * found.gyr[1:-1] + found.gyr[:-2]) * (found.width / 2)
     for vector in (found.acc, found.mag):
         v = turning.directions(vector)
+        v[~(np.abs(v) <= 1.0)] = np.nan  # of what is too short to have a direction
         step, between = v[2:] - v[:-2], v[1:-1]
-        known = np.isfinite(step).all(axis=1) & np.isfinite(between).all(axis=1) & np.isfinite(rate).all(axis=1)
-        if not known.any():
-            continue
+        known = np.flatnonzero(np.isfinite(step + between + rate).all(axis=1))
+        known = known[:: max(1, len(known) // _LOOKED_AT)]
         claimed = np.cross(between[known], np.einsum("sij,nj->sni", turning.signed_axes()[:24], rate[known]))
         along = np.einsum("sni,ni->s", claimed, step[known])
-        power = np.maximum(np.einsum("sni,sni->s", claimed, claimed), 1e-300)
-        best = int(np.argmax(along**2 / power))
-        factors.append(abs(float(along[best] / power[best])))
+        power = np.einsum("sni,sni->s", claimed, claimed)
+        best = int(np.argmax(along**2 / np.maximum(power, 1e-300)))
+        if power[best] > 0.0:
+            factors.append(abs(float(along[best] / power[best])))
     return factors
 
 
