@@ -72,8 +72,12 @@ def test_a_slow_clock_is_no_calm() -> None:
 
 def test_what_hides_that_gravity_is_absent_is_not_taken_for_axes() -> None:
     """No pause, no magnetometer: an acceleration to and fro stands still better in other axes, and not well."""
-    wrong = alone(without_gravity(trial("15_undisturbed_fast_translation_A", 60.0, 120.0)))
-    assert not sure(wrong)
+    assert not sure(alone(without_gravity(trial("15_undisturbed_fast_translation_A", 60.0, 120.0))))
+
+
+def test_what_hides_that_gravity_is_absent_is_no_evidence_of_a_unit() -> None:
+    """What shakes shows no turn, and so none that the rates claim."""
+    assert not sure(alone(without_gravity(trial("21_undisturbed_fast_combined", 45.0, 90.0))))
 
 
 def test_it_is_refused_and_can_be_forced(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

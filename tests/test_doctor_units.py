@@ -127,6 +127,35 @@ def test_raw_counts_are_no_unit() -> None:
     assert not diagnose(counts, thorough=False).repairs and sure(diagnose(counts, thorough=False))
 
 
+@pytest.mark.parametrize(
+    ("name", "start", "end"),
+    [
+        ("25_disturbed_tapping_B", 45.0, 90.0),
+        ("27_disturbed_phone_vibration_B", 120.0, 150.0),
+        ("31_disturbed_stationary_magnet_D", 80.0, 100.0),
+    ],
+)
+def test_what_hardly_turns_is_in_no_rare_unit(name: str, start: float, end: float) -> None:
+    """Shaken pieces, of which the right rates explain little: smaller ones seemed to fit, or a factor beside the right one."""
+    right = trial(name, start, end)
+    found = diagnose(right.with_samples(gyr=np.degrees(right.gyr)), thorough=False)
+    assert found.repairs.factors in ({}, {"gyr": pytest.approx(DEGREE)})
+    assert not sure(diagnose(right, read_as={"time": "ms"}, guessed={"time", "gyr"}, thorough=False))
+
+
+def test_a_shaken_gyroscope_with_a_slow_clock_is_not_in_deg_s() -> None:
+    right = poise.read(data_path("other", "phidgets_imu_upside_down.bag"))
+    piece = right.between(right.time[0], right.time[0] + 15.0)
+    slow = piece.with_samples(time=10.0 * piece.time)
+    assert not diagnose(slow, read_as={"time": "ms"}, guessed={"time"}, thorough=False).repairs
+
+
+@pytest.mark.parametrize(("unit", "factor"), [("mdeg/s", 180e3 / np.pi), ("mrad/s", 1e3)])
+def test_a_rare_unit_that_explains_the_turning_is_named(turned: Recording, unit: str, factor: float) -> None:
+    found = diagnose(turned.with_samples(gyr=factor * turned.gyr), thorough=False)
+    assert found.options() == f"--units gyr={unit}"
+
+
 # ---- the command ----------------------------------------------------------------------------------------------------
 
 

@@ -118,7 +118,7 @@ def _of_units_and_axes(
     if others and (clocked := with_other_clocks(others, blocks, as_is, lengths)):
         blocks, judged = clocked
     else:
-        judged = judge(blocks, as_is, lengths, clock.others, guessed="gyr" in guessed, doubtful=clock.counts)
+        judged = judge(blocks, as_is, lengths, clock.others, guessed="gyr" in guessed or clock.counts)
     told = rate_units.findings(judged, Context(alive, blocks, clock, read_as, guessed, length))
     tried = judged.rates
     if judged.unit is not None and judged.unit.time in others:

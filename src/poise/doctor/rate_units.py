@@ -100,9 +100,9 @@ def _no_unit(judged: Judged, about: Context) -> Finding:
     return Finding("time or gyr unit", "sure", text, decided=False)
 
 
-def _about(value: float) -> str:
-    """Two digits."""
-    return f"{float(f'{value:.2g}'):g}"
+def _about(value: float, digits: int = 2) -> str:
+    """*value* to so many digits, without an exponent."""
+    return f"{float(f'{value:.{digits}g}'):g}"
 
 
 def _open(judged: Judged, about: Context) -> list[Finding]:
@@ -119,7 +119,7 @@ def _open(judged: Judged, about: Context) -> list[Finding]:
     turn, most = rates.turned(about.blocks)
     told = "; ".join(
         f"{_words(unit, about)} it turned {np.degrees(turn * unit.turn):.0f}° in all, and by "
-        f"{np.degrees(most * unit.gyr):.3g} °/s at most"
+        f"{_about(np.degrees(most * unit.gyr), 3)} °/s at most"
         for unit in alike
     )
     if judged.before == 0.0 or "gyr" in about.guessed:

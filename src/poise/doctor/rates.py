@@ -27,6 +27,7 @@ _EXPLAINED = 0.5  # of the turning that is seen: what leaves less explains it, a
 _BETWEEN = 10.0 ** (np.arange(-28, 13) / 8)  # factors beside the units: a step leaves a seventh of the turning
 _BESIDE = 10.0 ** (np.delete(np.arange(-8, 9), 8) / 8)
 _NEAR = 1.04 ** np.arange(-6, 7)  # about a factor that was fitted
+_APART = 2.5  # times: what is nearer to a unit is that unit, badly explained
 _OFF = np.array([0.94, 1.06])  # by more no gyroscope's scale is off: raw counts of 16.4 a °/s are nearly mrad/s
 _LOOKED_AT = 20_000  # blocks are enough for a fit
 FASTEST = 100.0  # rad/s: 16 turns a second; an accelerometer 1 mm from the axis would feel more than gravity
@@ -108,13 +109,11 @@ def judge(
     clocks: Sequence[float] = (),
     *,
     guessed: bool = False,
-    doubtful: bool = False,
 ) -> Judged:
     """In which unit the rates are; *clocks* are other factors that the stamps may lack.
 
-    A unit is right where it explains the turning and no factor beside it does so better, or where rates that are much
-    larger than that of deg/s claim turns that no sensor sees. Where the unit was *guessed* more is tried; where the clock
-    is *doubtful*, what claims less than as it is may still claim too little.
+    A unit is right where it explains the turning and no factor beside it does so better; deg/s also where hardly anything
+    turns and rates as they are claim much more. Where the unit was *guessed* factors beside the units are looked at, too.
     """
     if explain(as_is):
         return Judged(AS_IT_IS, as_is)
@@ -124,19 +123,20 @@ def judge(
     units, tried = [units[i] for i in usable], [tried[i] for i in usable]
     losses, still = _votes(tried)
     best = int(np.argmin([float(each.sum()) for each in losses]))
-    if best > 1 and tried[best].factor < 1 and _deviations(still, losses[best]) < SURE:
-        best = _USUAL  # where hardly anything turns, of all factors that say "much less" deg/s is the usual one
-    open_ = tuple(unit for unit, loss in zip(units, losses, strict=True) if _deviations(loss, losses[best]) < SURE)
-    if best == 0 or _deviations(losses[0], losses[best]) < SURE:
-        return _unexplained(found, tried[: len(units)], units, lengths, open_, guessed or bool(clocks))
-    seen, claimed = _deviations(still, losses[best]), _deviations(losses[0], still)
+    if best > 1 and tried[best].factor < 1 and not explain(tried[best]):
+        best = _USUAL  # of all factors that say "much less" deg/s is the usual one
     chosen, apart = tried[best], _deviations(losses[0], losses[best])
-    nothing_turns = best == _USUAL and claimed >= SURE and _ratio(as_is, chosen) > _CLAIMED
-    doubtful = doubtful or bool(clocks)
-    if doubtful and not explain(chosen) and _seen(chosen) > _UNSEEN:
-        return _unexplained(found, tried, units, lengths, open_, True)
-    if seen < AGREED and not nothing_turns:
-        return _unexplained(found, tried, units, lengths, open_, guessed or bool(clocks))
+    open_ = tuple(
+        unit
+        for unit, each, loss in zip(units, tried, losses, strict=True)
+        if _deviations(loss, losses[best]) < SURE or _ratio(each, chosen) <= _CLAIMED
+    )
+    seen, claimed = _deviations(still, losses[best]) >= AGREED, _deviations(losses[0], still) >= SURE
+    too_much = best == _USUAL and claimed and _ratio(as_is, chosen) > _CLAIMED
+    fits = (seen or too_much) and _share(chosen) < _EXPLAINED
+    if best == 0 or apart < SURE or not (fits or (too_much and _seen(chosen) < _UNSEEN)):
+        other = _between(found, as_is, lengths, units) if guessed or clocks else None
+        return Judged(None, other or as_is, factor=other.factor if other else None, open=open_)
     beside = _BESIDE if best == _USUAL else np.append(_BESIDE, _OFF)
     if (other := _beside(found, chosen, lengths, chosen.factor * beside)) is not None:
         return Judged(None, other, misfit(as_is), apart, other.factor)
@@ -161,15 +161,12 @@ def with_other_clocks(
     return fits[0] if len(fits) == 1 and fits[0][0] is not found else None
 
 
-def _unexplained(
-    found: Blocks, tried: list[Rates], units: list[Unit], lengths: Lengths, open_: tuple[Unit, ...], thorough: bool
-) -> Judged:
-    """No unit explains the turning; where *thorough*, whether another factor does."""
-    other = None
-    if thorough:
-        factors = np.concatenate([_BETWEEN, *(fitted * _NEAR for fitted in _fitted(found))])
-        other = _beside(found, tried[0], lengths, factors)
-    return Judged(None, other or tried[0], factor=other.factor if other else None, open=open_)
+def _between(found: Blocks, as_is: Rates, lengths: Lengths, units: Iterable[Unit]) -> Rates | None:
+    """The rates times a factor that explains the turning and is far from that of every one of *units*; None without any."""
+    factors = np.concatenate([_BETWEEN, *(fitted * _NEAR for fitted in _fitted(found))])
+    other = _beside(found, as_is, lengths, factors)
+    near = other is not None and any(1.0 / _APART < other.factor / unit.turn < _APART for unit in units)
+    return None if near else other
 
 
 def _beside(found: Blocks, chosen: Rates, lengths: Lengths, factors: Iterable[float]) -> Rates | None:

@@ -21,7 +21,9 @@ LAGS = (1, 3)  # windows from one mean to those it is compared with
 LEAST_WINDOWS = 8  # a short recording has shorter ones
 _LONGEST = 2.0  # of the usual length: a shock is no vote
 _SPARSEST = 4  # blocks for each row
-_WILDEST = 1e4  # rad in a block: in no unit does anything turn like that
+_WILDEST = (
+    1e7  # rad in a block: in no unit does anything turn like that, in one that is a thousand times another either
+)
 _SLOW = 0.05  # of the blocks
 _ALIKE = 0.5  # of their middle: rates at rest lie nearer together
 _LARGEST_BIAS = 0.1  # rad/s: more is a turn
