@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+import poise
+
 ROOT = Path(os.environ.get("POISE_DATA") or Path(__file__).parents[2] / "shared" / "data")
 
 
@@ -19,3 +21,9 @@ def data_path(*parts: str) -> Path:
             pytest.fail(reason)
         pytest.skip(reason)
     return path
+
+
+def trial(name: str, start: float, end: float) -> poise.Recording:
+    """The BROAD trial *name* from *start* to *end*, s."""
+    recording = poise.read(data_path("broad", f"{name}.mat"))
+    return recording.between(recording.time[0] + start, recording.time[0] + end)

@@ -66,8 +66,11 @@ STAMPS: dict[str, Any] = {
     stamps=st.sampled_from(sorted(STAMPS)),
     changes=st.tuples(*[st.sampled_from(sorted(SAMPLES))] * 3),
     seed=st.integers(0, 99),
+    guessed=st.sampled_from([(), ("time", "gyr", "acc")]),
 )
-def test_no_recording_is_too_poor(base: int, rows: int, stamps: str, changes: tuple[str, ...], seed: int) -> None:
+def test_no_recording_is_too_poor(
+    base: int, rows: int, stamps: str, changes: tuple[str, ...], seed: int, guessed: tuple[str, ...]
+) -> None:
     rng, whole = np.random.default_rng(seed), BASES[base][:rows]
     values = {
         sensor: SAMPLES[change](getattr(whole, sensor), rng)
@@ -79,7 +82,7 @@ def test_no_recording_is_too_poor(base: int, rows: int, stamps: str, changes: tu
         return  # refused with a reason: another test's matter
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        found = diagnose(recording)
+        found = diagnose(recording, guessed=guessed, read_as={"time": "ms"} if guessed else None)
         assert len(found.repair(recording)) == len(recording)
     assert found.verdict and json.dumps(found.to_dict(), allow_nan=False)
     for finding in found.findings:

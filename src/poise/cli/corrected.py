@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from poise.formats import Sniffed
 
 _SENSORS = ("gyr", "acc", "mag")
+_STATED = ("given", "named by the file", "written by poise", "calendar stamps")
 _TABLES = {"units": ("time", *_SENSORS), "remap": ("all", *_SENSORS), "delay": ("acc", "mag")}
 
 
@@ -45,12 +46,20 @@ def check(reading: Reading, recording: Recording, sniffed: Sniffed) -> None:
     if reading.force:
         return
     read_as = {name: facts.unit for name, facts in sniffed.sensors.items()}
-    found = diagnose(recording, thorough=False, read_as=read_as)
+    found = diagnose(recording, thorough=False, read_as=read_as, guessed=guessed(sniffed))
     if wrong := [f for f in found.found("sure") if f.name != "samples"]:
         told = "; ".join(f.sentence for f in wrong)
         fix = options(repaired(reading, found)) if found.repairs and all(f.decided for f in wrong) else ""
         cure = f"say {fix}" if fix else "poise doctor shows what is known"
         raise RecordingError(f"{told}; {cure}, or go on with --force")
+
+
+def guessed(sniffed: Sniffed) -> set[str]:
+    """Whose units nobody named: the clock's, told from its rate alone, and those that were taken for SI."""
+    names = {name for name, facts in sniffed.sensors.items() if facts.how == "not named"}
+    clock = sniffed.sensors.get("time")
+    stated = clock is None or clock.how in _STATED or clock.how.startswith("from the rate")
+    return names if stated else names | {"time"}
 
 
 def applied(reading: Reading, recording: Recording) -> Recording:
@@ -121,13 +130,16 @@ def _remaps(text: str | None) -> dict[str, str]:
     return told
 
 
-def repaired(reading: Reading, diagnosis: Diagnosis) -> Reading:
-    """*reading* with what repairs the recording that it gave: its own options and the new ones, taken together."""
+def repaired(reading: Reading, diagnosis: Diagnosis, choice: Corrections | None = None) -> Reading:
+    """*reading* with what repairs the recording that it gave: its own options and the new ones, taken together.
+
+    *choice* is one of those that the diagnosis leaves open.
+    """
     from poise.data.axes import rotation_matrix
     from poise.doctor.axes import words
-    from poise.doctor.findings import unit_after
+    from poise.doctor.findings import merged, unit_after
 
-    fix = diagnosis.repairs
+    fix = merged([diagnosis.repairs, choice]) if choice else diagnosis.repairs
     whole, single = asked(reading)
     units = pairs(reading.units, "--units", "") or {}
     for sensor, factor in fix.factors.items():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
@@ -16,7 +16,6 @@ from poise.cli.words import UsageError, usage
 from poise.errors import FormatError
 
 if TYPE_CHECKING:
-    from poise.data.recording import Recording
     from poise.doctor import Diagnosis
 
 _PAGES = (".html", ".htm")
@@ -31,6 +30,8 @@ class Examined(NamedTuple):
     """with the repairs"""
     reader: str
     """why it cannot be read without them; empty where it can"""
+    choices: tuple[Reading, ...] = ()
+    """how it may be read, where nothing tells which is right"""
 
 
 def doctor(
@@ -48,7 +49,7 @@ def doctor(
     From the samples alone: the gyroscope must explain how gravity and the magnetic field turn. That tells units, axes,
     signs and delays; besides stamps, gaps, clipping, stuck or repeated samples, noise and bias at rest, and hard iron are
     looked at. What is "sure" is refused by `poise estimate` too; "likely" is to be looked at; what cannot be told, and
-    why, is said. Exit code 1: something is surely wrong, or a FILE cannot be read.
+    why, is said. Exit code 1: something is surely wrong, or a FILE cannot be read, or not without a unit that cannot be told.
 
     Examples: `poise doctor walk.csv`; `poise doctor walk.csv --save-profile glove.toml`, then
     `poise estimate walk.csv --profile glove.toml`; `poise doctor logs/*.csv --sheet logs.html`
@@ -85,7 +86,13 @@ def doctor(
         return 1
     if json:
         results = [
-            {"file": str(one.file), "reader": one.reader, "command": command(one)} | one.diagnosis.to_dict()
+            {
+                "file": str(one.file),
+                "reader": one.reader,
+                "command": command(one),
+                "choices": [_estimate(one, choice) for choice in one.choices],
+            }
+            | one.diagnosis.to_dict()
             for one in done
         ]
         show.as_json({"results": results, "errors": refused})
@@ -94,7 +101,8 @@ def doctor(
             _tell(one)
         for line in written:
             show.note(line)
-    return 1 if refused or any(one.diagnosis.found("sure") for one in done) else 0
+    bad = any(one.diagnosis.found("sure") or one.choices or (one.reader and not command(one)) for one in done)
+    return 1 if refused or bad else 0
 
 
 def examine(file: Path, reading: Reading, hemisphere: Literal["north", "south"]) -> Examined:
@@ -115,22 +123,33 @@ def examine(file: Path, reading: Reading, hemisphere: Literal["north", "south"])
         reader = str(refusal).removeprefix(f"{file}: ")
     recording = corrected.applied(reading, recording)
     read_as = {name: facts.unit for name, facts in sniffed.sensors.items()}
-    found = diagnose(recording, hemisphere=hemisphere, read_as=read_as)
+    found = diagnose(recording, hemisphere=hemisphere, read_as=read_as, guessed=corrected.guessed(sniffed))
     right = corrected.repaired(reading, found)
-    if reader:  # what was taken for SI must be said, since the samples do not decide
-        right = _said(right, recording, {name: facts.how for name, facts in sniffed.sensors.items()})
-    return Examined(file, found, right, reader)
+    if any(f.severity == "sure" and not f.decided for f in found.findings):
+        return Examined(file, found, right, reader)
+    # What was taken for SI and found right must be said where the reader does not decide
+    taken = {name for name in corrected.guessed(sniffed) if reader and not _open(found, name)}
+    choices = tuple(
+        _said(corrected.repaired(reading, found, choice), taken) for untold in found.untold for choice in untold.choices
+    )
+    return Examined(file, found, right if _open(found) else _said(right, taken), reader, choices)
 
 
-def _said(reading: Reading, recording: Recording, how: dict[str, str]) -> Reading:
-    """*reading* with the units that the file does not name, which were taken for SI and found right."""
+def _open(found: Diagnosis, sensor: str = "") -> bool:
+    """Whether the unit of *sensor*, or of any that matters, is not known."""
+    names = {f"{name} unit" for name in ((sensor,) if sensor else ("time", "gyr", "acc"))}
+    return any(f.name in names and not f.decided for f in found.findings)
+
+
+def _said(reading: Reading, taken: Collection[str]) -> Reading:
+    """*reading* with the units of the sensors *taken* for SI."""
     from dataclasses import replace
 
     from poise.cli.words import pairs
 
     units = pairs(reading.units, "--units", "") or {}
     for sensor, unit in (("gyr", "rad/s"), ("acc", "m/s²")):
-        if how.get(sensor) == "not named" and sensor not in units:
+        if sensor in taken and sensor not in units:
             units[sensor] = unit
     return replace(reading, units=",".join(f"{k}={v}" for k, v in units.items()) or None)
 
@@ -140,8 +159,12 @@ def command(one: Examined) -> str:
     found = one.diagnosis
     if any(not f.decided for f in found.found("sure")) or not (found.repairs or one.reader):
         return ""
+    return "" if one.reader and _open(found) else _estimate(one, one.reading)
+
+
+def _estimate(one: Examined, reading: Reading) -> str:
     name = f"./{one.file}" if str(one.file).startswith("-") else str(one.file)
-    return f"poise estimate {shlex.quote(name)} {corrected.options(one.reading)}".rstrip()
+    return f"poise estimate {shlex.quote(name)} {corrected.options(reading)}".rstrip()
 
 
 def _tell(one: Examined) -> None:
@@ -159,6 +182,8 @@ def _tell(one: Examined) -> None:
             print(f"  {'':<11} one that fits: {fix}")
     if run := command(one):
         print(f"  repaired: {run}")
+    for choice in one.choices:
+        print(f"  either:   {_estimate(one, choice)}")
     print()
 
 
@@ -185,7 +210,8 @@ def _write(done: list[Examined], save_profile: Path | None, sheet: Path | None) 
     """Write the profile and the sheet; what to say of them."""
     written = []
     if save_profile is not None and done and not corrected.corrects(done[0].reading):
-        what = "nothing of it is repaired for sure" if done[0].diagnosis.found("sure") else "nothing to repair"
+        open_ = done[0].diagnosis.found("sure") or done[0].reader
+        what = "nothing of it is repaired for sure" if open_ else "nothing to repair"
         written.append(f"{done[0].file}: {what}: no profile written")
     elif save_profile is not None and done:
         one = done[0]

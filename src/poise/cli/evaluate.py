@@ -38,6 +38,7 @@ def evaluate(
     Each FILE is a recording, which is estimated first, or an attitude that poise wrote (in a ROS bag too). The reference
     is in the recording (as in the benchmark's files) or in --reference. RMSE over the moving rows, in
     degrees, nothing aligned first. A method without a heading of its own (tilt, gated) is judged by its inclination.
+    A reference that only agrees if it is read as inverted, in NED or with w last is said to be so.
 
     Examples: `poise evaluate trials/*.mat -m adaptive-gain`; `poise evaluate walk.attitude.parquet --reference mocap.tum`
 
@@ -88,6 +89,7 @@ def _evaluated(
     running: Running,
     tell: Callable[[str, float], None],
 ) -> dict[str, Any]:
+    from poise.conformance.references import misread
     from poise.data.attitude import Attitude
     from poise.estimators import judged_by
     from poise.evaluation import evaluate as measure
@@ -116,6 +118,7 @@ def _evaluated(
 
         save_figure(attitude_figure(attitude, recording, errors, title=file.stem), plot)
     judged = judged_by(attitude.provenance.method)
+    other = misread(attitude, against, judged)
     return {
         "file": str(file),
         "method": attitude.provenance.method,
@@ -126,6 +129,7 @@ def _evaluated(
         "compared": int(errors.counted.sum()),
         "missing": errors.missing,
         "diverged": errors.diverged_by(judged),
+        "reference": other.sentence if other else "",
     }
 
 
@@ -186,3 +190,5 @@ def _report(results: list[dict[str, Any]]) -> None:
         if result["missing"]:
             rows_ = counted(result["missing"], "row")
             show.note(f"{Path(result['file']).name}: of the rows that should count, {rows_} without an attitude")
+        if result["reference"]:
+            show.note(f"{Path(result['file']).name}: {result['reference']}")

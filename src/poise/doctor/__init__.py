@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -9,11 +10,14 @@ import numpy as np
 from poise.data.corrections import Corrections
 from poise.data.recording import Recording
 from poise.data.stamps import packed
-from poise.doctor import axes, offsets, samples, timing, turning, units
+from poise.doctor import axes, exchange, gravity, offsets, rate_units, samples, timing, turning, units
 from poise.doctor.axes import Hemisphere
 from poise.doctor.findings import RANK, Diagnosis, Evidence, Finding
+from poise.doctor.rate_units import Context
+from poise.doctor.rates import Lengths, Rates, explain, judge, with_factor, with_other_clocks
 from poise.errors import RecordingError
 from poise.estimators.guard import unpacked
+from poise.formats.units import SI
 
 __all__ = ["Corrections", "Diagnosis", "Finding", "Hemisphere", "diagnose"]
 
@@ -28,19 +32,20 @@ def diagnose(
     hemisphere: Hemisphere = "north",
     thorough: bool = True,
     read_as: dict[str, str] | None = None,
+    guessed: Collection[str] = (),
 ) -> Diagnosis:
     """What is wrong with *recording*: units, axes, signs, delays, stamps, samples; with what repairs it.
 
     Gravity and the magnetic field stand still in the room, so the gyroscope must explain how they turn in the body.
     *hemisphere* says where the field points: its dip gives the sign of acc and mag. Without *thorough* only units and
     axes are judged. *read_as* names the units that a file's numbers were taken for, so that options can name the right
-    ones.
+    ones; which of "time" and "gyr" were *guessed* for that, so that nobody is believed who did not say it.
     """
     given, (recording, wild) = recording, _bounded(recording)
     if hemisphere not in ("north", "south"):
         raise RecordingError(f"hemisphere: expected 'north' or 'south', found {hemisphere!r}")
     dead = [name for name in _SENSORS if samples.constant(getattr(recording, name))]
-    found, evidence = _of_units_and_axes(recording, hemisphere, dead)
+    found, evidence = _of_units_and_axes(recording, hemisphere, dead, read_as or {}, guessed)
     if thorough:
         found += wild
         fixed = Diagnosis(recording, tuple(found)).repairs.apply(recording)
@@ -48,7 +53,9 @@ def diagnose(
         in_packets = packed(fixed.time) is not None
         fixed = fixed.with_samples(time=unpacked(fixed.time))
         found += samples.findings(fixed)
-        if not any(f.severity == "sure" and not f.decided for f in found):
+        if any(f.choices for f in found):  # rates of unknown size: whether it rests is not known, nor what is late
+            found = [f for f in found if f.name != "rest"]
+        elif not any(f.severity == "sure" and not f.decided for f in found):
             late = offsets.findings(_without(fixed, dead))
             # The stamps of packets are too coarse for a delay to be taken out
             found += [replace(f, fix=Corrections()) for f in late] if in_packets else late
@@ -78,27 +85,50 @@ def _without(recording: Recording, dead: list[str]) -> Recording:
 
 
 def _of_units_and_axes(
-    recording: Recording, hemisphere: Hemisphere, dead: list[str]
+    recording: Recording,
+    hemisphere: Hemisphere,
+    dead: list[str],
+    read_as: Mapping[str, str],
+    guessed: Collection[str],
 ) -> tuple[list[Finding], Evidence | None]:
-    found = [f for f in (_empty(recording), units.of_time(recording)) if f]
-    per_second = found[-1].fix.factors.get("time", 1.0) if found else 1.0
-    if any(f.name == "samples" for f in found):
-        return found, None
+    clock = units.of_time(recording, read_as.get("time", SI["time"]), guessed="time" in guessed)
+    if empty := _empty(recording):
+        return [empty, *([clock.finding] if clock.finding else [])], None
     alive = _without(recording, dead)
-    blocks = turning.blocks(alive, unpacked(recording.time * per_second))
+    blocks = turning.blocks(alive, unpacked(recording.time * clock.factor))
     of_acc = units.of_acc(recording, blocks, constant="acc" in dead)
-    found += [f for f in (of_acc, units.of_mag(recording)) if f]
     length = _usual(blocks.acc)
     if of_acc is None or "acc" in of_acc.fix.factors:
         length = recording.gravity / (of_acc.fix.factors["acc"] if of_acc else 1.0)
-    as_is = units.rates(blocks, 1.0, length, _usual(blocks.mag))
-    if of_acc is not None and of_acc.name == "acc gravity":
-        as_is = as_is._replace(acc=turning.NO_TURNS)
-    of_gyr, rates = units.of_gyr(blocks, as_is, length, _usual(blocks.mag))
-    found += [of_gyr] if of_gyr else []
-    verdict = axes.judge(rates.acc, rates.mag)
-    found += _of_axes(verdict, rates, blocks, alive, hemisphere, dead)
-    return found, Evidence(rates.acc, rates.mag, verdict)
+    lengths = Lengths(length, _usual(blocks.mag))
+    as_is = with_factor(blocks, 1.0, lengths)
+    if swapped := exchange.exchanged(blocks, as_is, lengths.mag, read_as):
+        return [swapped, *([clock.finding] if clock.finding else [])], None
+    known = of_acc is None or bool(of_acc.fix)
+    of_acc = gravity.removed(blocks, as_is, length, known=known, clocks=clock.others) or of_acc
+    found = [f for f in (of_acc, units.of_mag(recording)) if f]
+    free = of_acc is not None and of_acc.name == "acc gravity"
+    if free:
+        alive = _without(alive, ["acc"])
+        blocks, as_is = blocks._replace(acc=np.full_like(blocks.acc, np.nan)), as_is._replace(acc=turning.NO_TURNS)
+    others = {
+        time: turning.blocks(alive, unpacked(recording.time * clock.factor * time))
+        for time in (() if explain(as_is) else clock.others)
+    }
+    if others and (clocked := with_other_clocks(others, blocks, as_is, lengths)):
+        blocks, judged = clocked
+    else:
+        judged = judge(blocks, as_is, lengths, clock.others, guessed="gyr" in guessed or clock.counts)
+    told = rate_units.findings(judged, Context(alive, blocks, clock, read_as, guessed, length))
+    tried = judged.rates
+    if judged.unit is not None and judged.unit.time in others:
+        blocks = others[judged.unit.time]
+        tried = with_factor(blocks, judged.unit.gyr, lengths)
+    verdict = axes.judge(tried.acc, tried.mag)
+    if judged.unit is None and (clock.others or "gyr" in guessed):  # another unit would show other axes
+        verdict = verdict._replace(sure=False, wrong=False, agreed=False)
+    found += [*told, *_of_axes(verdict, tried, blocks, alive, hemisphere, dead)]
+    return found, Evidence(tried.acc, tried.mag, verdict)
 
 
 def _empty(recording: Recording) -> Finding | None:
@@ -117,7 +147,7 @@ def _empty(recording: Recording) -> Finding | None:
 
 def _of_axes(
     verdict: axes.Verdict,
-    rates: units.Rates,
+    rates: Rates,
     blocks: turning.Blocks,
     recording: Recording,
     hemisphere: Hemisphere,
@@ -147,7 +177,7 @@ def _of_axes(
 
 
 def _wrong(
-    verdict: axes.Verdict, rates: units.Rates, blocks: turning.Blocks, hemisphere: Hemisphere, figures: str
+    verdict: axes.Verdict, rates: Rates, blocks: turning.Blocks, hemisphere: Hemisphere, figures: str
 ) -> Finding:
     answer = verdict.answer
     clear = f"({figures}, {verdict.better:.0f} times the misfit)"
@@ -215,7 +245,7 @@ def _doubt(answer: axes.Answer, fix: axes.Fix, verdict: axes.Verdict, hemisphere
     return ""
 
 
-def _why_not(verdict: axes.Verdict, rates: units.Rates, dead: list[str]) -> str:
+def _why_not(verdict: axes.Verdict, rates: Rates, dead: list[str]) -> str:
     windows = max(len(rates.acc.loss), len(rates.mag.loss))
     if "gyr" in dead or (not windows and dead):
         return f"axes cannot be told: {samples.silence(dead)}"

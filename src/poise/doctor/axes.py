@@ -20,6 +20,7 @@ _REFUTED = 4.5  # the same against the axes as they are alone, where none can be
 AGREED = 3.0  # the same, to say that the axes as they are fit best
 _CLEAR = 2.0  # times smaller the loss must be: an alarm wants more than a consistent trifle
 _WORST = 1.25  # times what no gyroscope at all leaves: an answer that leaves more explains nothing
+_SCATTER = 0.15  # of gravity's squared length: in the right axes less is left, whatever the motion
 _LEAST_DIP = 0.15  # cosine between specific force and field: nearer to the magnetic equator the dip has no sign
 
 
@@ -125,7 +126,8 @@ def _clear(answer: Answer, acc: Turns, mag: Turns, by_acc: Floats, by_mag: Float
     """Whether *answer* explains what is seen where the axes as they are do not, by size and not by consistency alone.
 
     It must also be better than a gyroscope that says nothing: a sensor that swings to and fro on a rope feels a force that
-    stands still in the body, and axes that turn about that force would "explain" it.
+    stands still in the body, and axes that turn about that force would "explain" it. And gravity must then stand still: an
+    acceleration without it may do so better in other axes, and not well.
     """
     better, worst, gained, spread = 1.0, 0.0, 0.0, 0.0
     for turns, votes, index in ((acc, by_acc, answer.acc), (mag, by_mag, answer.mag)):
@@ -137,6 +139,7 @@ def _clear(answer: Answer, acc: Turns, mag: Turns, by_acc: Floats, by_mag: Float
         difference = votes[:, 48] - votes[:, index]
         gained, spread = gained + float(difference.sum()), spread + float(np.sum(difference**2))
     clear = better >= _CLEAR and worst <= _WORST and gained >= AGREED * np.sqrt(max(spread, 1e-12))
+    clear &= answer.acc == 0 or not len(by_acc) or float(acc.total[answer.acc]) < _SCATTER
     return bool(clear), better
 
 

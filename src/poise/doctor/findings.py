@@ -29,6 +29,8 @@ class Finding:
     """what repairs it, or may"""
     decided: bool = True
     """whether *fix* is the only one that it can be"""
+    choices: tuple[Corrections, ...] = ()
+    """of which one is right, and the recording does not tell which; without any correction it may be right as it is"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +58,9 @@ class Diagnosis:
         """One sentence."""
         sure = self.found("sure")
         if not sure:
+            if self.untold:
+                which = " or ".join(options(choice, self.read_as) for choice in self.untold[0].choices)
+                return f"cannot tell: {', '.join(f.name for f in self.untold)}; say {which}"
             likely = self.found("likely")
             if likely:
                 return f"nothing surely wrong; {len(likely)} to look at: {', '.join(f.name for f in likely)}"
@@ -65,6 +70,11 @@ class Diagnosis:
         if self.repairs and all(f.fix and f.decided for f in sure):
             return f"surely wrong: {what}; {self.options()} repairs it"
         return f"surely wrong: {what}; not all of it can be repaired for sure"
+
+    @property
+    def untold(self) -> tuple[Finding, ...]:
+        """The findings that leave a choice which somebody else must make."""
+        return tuple(f for f in self.findings if f.choices)
 
     @property
     def repairs(self) -> Corrections:
@@ -94,6 +104,7 @@ class Diagnosis:
                     "sentence": f.sentence,
                     "options": options(f.fix, self.read_as),
                     "decided": f.decided,
+                    "choices": [options(choice, self.read_as) for choice in f.choices],
                 }
                 for f in self.findings
             ],

@@ -20,6 +20,8 @@ _STUCK = 0.5  # s of one and the same sample
 _REST = 1.0  # s: windows in which rest is looked for
 _REST_GYR, _REST_ACC = 0.02, 0.15  # rad/s, m/s²: the standard deviation of what rests in a hand's reach
 _REST_TURN = 0.06  # rad/s: the mean of what rests
+_OFF, _ABSURD = 0.025, 0.5  # of gravity: more than an inexpensive accelerometer is off; what is no scale error any more
+_APART = 40.0  # degrees between attitudes that tell a scale from an offset
 _HELD = 0.5  # of the samples repeat: a slower sensor whose last value the logger held
 
 
@@ -159,7 +161,33 @@ def _rest(recording: Recording) -> list[Finding]:
         f"|f| {force:.3f} m/s² ({force / recording.gravity - 1.0:+.1%} of gravity), "
         f"noise {_three(np.median(shake[rest], axis=0))}",
     ]
-    return [Finding("rest", "note", "; ".join(texts))]
+    return [Finding("rest", "note", "; ".join(texts)), *_length_at_rest(level[rest], recording.gravity)]
+
+
+def _length_at_rest(level: Floats, gravity: float) -> list[Finding]:
+    """Whether the specific force (m, 3) in windows at rest has another length than gravity, and what mends that."""
+    length = np.linalg.norm(level, axis=1)
+    usual = float(np.median(length))
+    off = usual / gravity - 1.0
+    if not _OFF <= abs(off) < _ABSURD:
+        return []
+    toward = level / length[:, None]
+    apart = float(np.degrees(np.arccos(np.clip(np.min(toward @ toward[0]), -1.0, 1.0))))
+    spread = float(np.ptp(length))
+    text = (
+        f"at rest the specific force is {usual:.3f} m/s² long, {abs(off):.1%} {'more' if off > 0 else 'less'} than gravity "
+        f"({gravity:.3f})"
+    )
+    option = f"--set gravity={usual:.4g}, which self-calibrating, two-stage, adaptive-gain and gated take"
+    if apart < _APART:
+        text += f"; it rests one way up only, so its scale is off, or its offset: if the scale, {option}"
+    elif spread < abs(off) * gravity / 2:
+        text += f", and so it is in attitudes up to {apart:.0f}° apart: its scale is off; {option}"
+    else:
+        text += (
+            f", and {spread:.2f} m/s² longer one way up than another: offsets, or scales of single axes; calibrate it"
+        )
+    return [Finding("acc scale", "likely", text)]
 
 
 def _three(values: Floats) -> str:

@@ -21,7 +21,9 @@ LAGS = (1, 3)  # windows from one mean to those it is compared with
 LEAST_WINDOWS = 8  # a short recording has shorter ones
 _LONGEST = 2.0  # of the usual length: a shock is no vote
 _SPARSEST = 4  # blocks for each row
-_WILDEST = 1e4  # rad in a block: in no unit does anything turn like that
+_WILDEST = (
+    1e7  # rad in a block: in no unit does anything turn like that, in one that is a thousand times another either
+)
 _SLOW = 0.05  # of the blocks
 _ALIKE = 0.5  # of their middle: rates at rest lie nearer together
 _LARGEST_BIAS = 0.1  # rad/s: more is a turn
@@ -73,6 +75,8 @@ class Turns(NamedTuple):
     """(windows, 48)"""
     still: Floats
     """(windows,) the same for a gyroscope that says nothing"""
+    long: Floats
+    """(means, 48) the length of a window's mean, of the usual length"""
 
     @property
     def votes(self) -> Floats:
@@ -122,18 +126,16 @@ def blocks(recording: Recording, time: Floats | None = None) -> Blocks:
             return np.column_stack([np.bincount(index, given[:, i], count) / n for i in range(3)])
 
     aged = (bool(recording.acc_age.any()), bool(recording.mag_age.any()))
-    silent = (recording.mag == 0).all(axis=1)
-    mag = np.where(silent[:, None], np.nan, recording.mag) if silent.any() else recording.mag
     return Blocks(
         low,
         width,
         means(recording.gyr, np.full(len(stamps), float(np.median(steps)) / 2)),  # the mean since the row before
-        means(recording.acc, recording.acc_age if aged[0] else None),
-        means(mag, recording.mag_age if aged[1] else None),
+        means(_heard(recording.acc), recording.acc_age if aged[0] else None),
+        means(_heard(recording.mag), recording.mag_age if aged[1] else None),
     )
 
 
-NO_TURNS = Turns(np.empty((0, 48)), np.empty(0))
+NO_TURNS = Turns(np.empty((0, 48)), np.empty(0), np.empty((0, 48)))
 
 
 class Path(NamedTuple):
@@ -144,6 +146,12 @@ class Path(NamedTuple):
     mirrored: Floats
     unknown: NDArray[np.intp]
     """(m,) how many steps before a block have no rate"""
+
+
+def _heard(vector: Floats) -> Floats:
+    """*vector* (n, 3) with zeros as missing: a sensor of gravity or of a field that gives them gives nothing."""
+    silent = (vector == 0).all(axis=1)
+    return np.where(silent[:, None], np.nan, vector) if silent.any() else vector
 
 
 def path(found: Blocks, factor: float = 1.0) -> Path:
@@ -193,7 +201,7 @@ def turns(vector: Floats, along: Path, width: float, length: float) -> Turns:
     v = v * np.minimum(1.0, _LONGEST * length / size[known])[:, None]  # a shock is no vote
     starts = np.flatnonzero(np.diff(window, prepend=-1))
     if len(starts) < 2:
-        return Turns(np.empty((0, 48)), np.empty(0))
+        return NO_TURNS
     count = np.diff(np.append(starts, len(window)))
     means = np.empty((len(starts), 3, 49))  # the last column: as if nothing turned
     means[:, :, 48] = np.add.reduceat(v, starts) / count[:, None]
@@ -205,8 +213,8 @@ def turns(vector: Floats, along: Path, width: float, length: float) -> Turns:
         means[:, :, part] = summed @ answer.T
     whole = count >= 0.5 * np.median(count)
     apart, place = along.unknown[known[starts]], window[starts]
-    longer = np.einsum("wis,wis->ws", means, means)
-    longer = (np.sqrt(longer) - 1.0) ** 2
+    long = np.sqrt(np.einsum("wis,wis->ws", means, means))
+    longer = (long - 1.0) ** 2
     loss, found = np.zeros((len(starts), 49)), np.zeros(len(starts))
     for lag in LAGS:
         if lag >= len(starts):
@@ -217,7 +225,7 @@ def turns(vector: Floats, along: Path, width: float, length: float) -> Turns:
         loss[:-lag][near] += (longer[lag:][near] + longer[:-lag][near]) / 2
         found[:-lag] += near
     loss = loss[found > 0] / found[found > 0, None]
-    return Turns(loss[:, :48], loss[:, 48])
+    return Turns(loss[:, :48], loss[:, 48], long[whole, :48])
 
 
 def _matrices(quat: Floats) -> Floats:

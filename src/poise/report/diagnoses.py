@@ -36,7 +36,8 @@ def _section(diagnosis: Diagnosis, command: str, i: int) -> str:
         parts.append(f"<p>Repaired:</p><pre><code>{_text(command)}</code></pre>")
     rows = []
     for f in diagnosis.findings:
-        cells = (("time", f.name), ("text", f.sentence), ("option", options(f.fix, diagnosis.read_as)))
+        option = " or ".join(options(each, diagnosis.read_as) for each in f.choices or (f.fix,))
+        cells = (("time", f.name), ("text", f.sentence), ("option", option))
         rows.append(
             f"<tr><th>{_text(f.severity)}</th>"
             + "".join(f'<td class="{k}">{_text(c)}</td>' for k, c in cells)
