@@ -22,7 +22,7 @@ from poise.math.memory import Memory
 from poise.math.quaternions import Quat
 from poise.math.vectors import ABSENT, Vec3
 from poise.monitor.parameters import checked, vertical_in_body
-from poise.monitor.tip_over import DIRECTIONS, TipOver
+from poise.monitor.tip_over import CLOCK_STANDS, DIRECTIONS, TipOver
 
 Floats = NDArray[np.float64]
 
@@ -269,6 +269,8 @@ def _events(
             )
         elif state in (TipState.UPRIGHT, TipState.RIGHTED):
             reason = f"stands{' again' * (state is TipState.RIGHTED)}, {degrees(tilt):.1f}° from upright"
+        elif state is TipState.UNKNOWN and int(codes[i, 1]) == CLOCK_STANDS:
+            reason = "its clock stands still"
         else:
             reason = _OTHERS[state]
         events.append(TipEvent(float(time[i]), state, before, way, tilt, rate, impact, reason))
