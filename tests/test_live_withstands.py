@@ -16,10 +16,11 @@ from numpy.typing import NDArray
 from websockets.exceptions import InvalidStatus
 
 import poise
-from live_helpers import METHOD, Running, heard, made, rows_of, seen, send, serving, wait_for
+from live_helpers import METHOD, Running, ask, heard, made, rows_of, seen, send, serving, wait_for
 from poise.data.event import TipState
 from poise.errors import PoiseError
 from poise.live import frames
+from poise.live.access import parsed_tokens
 from poise.live.clock import Standstill
 from poise.live.devices import Arrival
 from poise.live.feeding import Feeding
@@ -28,9 +29,10 @@ from poise.live.hub import Hub
 from poise.live.methods import Choice
 from poise.live.udp import Udp
 from poise.live.watching import Watch
-from poise.responses import Responses
+from poise.responses import Responses, config_of
 
 Floats = NDArray[np.float64]
+ALL, READ = "all-the-scopes-of-it", "may-only-read-of-it"
 
 
 @pytest.fixture(scope="module")
@@ -350,6 +352,83 @@ def test_silence_is_told_in_time_though_every_tick_is_late(took: float) -> None:
         live.call(live.hub.on_batch.pop)
         wait_for(lambda: not any(r.startswith("overloaded") for r in live.http.get("/healthz").json()["reasons"]))
         assert not told(live, "silent", "other") or told(live, "overloaded")
+
+
+# -- responses ------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def board(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
+    """The pins of a mock board."""
+    gpiozero = pytest.importorskip("gpiozero")
+    from gpiozero.pins.mock import MockFactory
+
+    factory = MockFactory()
+    monkeypatch.setattr(gpiozero.Device, "pin_factory", factory)
+    yield factory
+    factory.reset()
+
+
+def guarded(folder: Path, **more: Any) -> Watch:
+    """The robot of docs/protect-your-robot.md."""
+    power = {"type": "relay", "pin": 17, "active_high": True}
+    log = {"type": "log", "file": str(folder / "said.log")}
+    stage = {"name": "tips over", "state": ["tipping", "fallen", "free fall"], "fire": ["power", "log"]}
+    table = {"responders": {"power": power, "log": log}, "stages": [stage], **more}
+    return Watch(responses={"robot": Responses(config_of(table))})
+
+
+def lying(seconds: float, start: float = 0.0) -> Floats:
+    rows = upright(seconds, start=start)
+    rows[:, 4:7] = rows[:, 4:7] @ np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+    return rows
+
+
+def paced(device: Any, rows: Floats, first: int = 0) -> None:
+    for at in range(0, len(rows), 5):
+        device.send(frames.encoded(rows[at : at + 5], first + at))
+        time.sleep(0.05)
+
+
+def test_the_power_stays_off_while_the_robot_lies_and_comes_back_once_acknowledged(tmp_path: Path, board: Any) -> None:
+    with serving(watch=guarded(tmp_path), tokens=parsed_tokens((ALL, f"read:{READ}"))) as live:
+        head = {"Authorization": f"Bearer {ALL}"}
+        with live.device("robot", additional_headers=head) as robot:
+            assert board.pin(17).state  # nothing is known yet
+            paced(robot, lying(1.0))
+            wait_for(lambda: live.hub.find("robot").tip == TipState.FALLEN)
+            assert board.pin(17).state  # and it was so all the time
+            assert all(each.state for each in board.pin(17).states[1:])
+            where = "/devices/robot/acknowledge"
+            assert live.http.post(where, headers={"Authorization": f"Bearer {READ}"}).status_code == 401
+            answer = live.http.post(where, headers=head)
+            assert answer.json() == {"device": "robot", "holding": ["tips over", "start"]}
+            assert board.pin(17).state  # it lies
+            paced(robot, upright(4.0, start=2.0), first=100)
+            wait_for(lambda: not board.pin(17).state)
+            assert told(live, "acknowledged", "robot")
+        assert live.http.post("/devices/nobody/acknowledge", headers=head).status_code == 404
+        with live.viewer(additional_headers=head) as viewer:
+            assert ask(viewer, type="acknowledge", device="robot")["type"] == "done"
+            assert "there are: robot" in ask(viewer, type="acknowledge", device="nobody")["message"]
+        with live.viewer(additional_headers={"Authorization": f"Bearer {READ}"}) as viewer:
+            assert "scope 'write'" in ask(viewer, type="acknowledge", device="robot")["message"]
+    kinds = [each["kind"] for each in logged(tmp_path)]
+    assert kinds.count("acknowledged") >= 1
+    assert "released" in kinds
+
+
+def test_a_robot_that_never_sends_is_as_its_policy_asks(
+    tmp_path: Path, board: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("poise.responses.staging._PATIENCE", 0.3)
+    monkeypatch.setattr("poise.live.missing._PATIENCE", 0.3)
+    with serving(watch=guarded(tmp_path, unknown="as tipping")) as live:
+        assert board.pin(17).state
+        wait_for(lambda: any(each["kind"] == "fired" for each in logged(tmp_path)))
+        wait_for(lambda: told(live, "missing"))
+        assert live.http.post("/devices/robot/acknowledge").json()["holding"]
+        assert board.pin(17).state
 
 
 # -- names ----------------------------------------------------------------------------------------------------------
