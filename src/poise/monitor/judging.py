@@ -90,6 +90,8 @@ class Judgement:
     """(n, 4) rad, the lean forward, back, left and right"""
     events: list[TipEvent]
     tipover: TipOver
+    flags: NDArray[np.uint32]
+    """(n,) of the attitude that was judged"""
 
     def __len__(self) -> int:
         return len(self.time)
@@ -129,7 +131,7 @@ def judge(
     lean[~np.isfinite(said[:, TILT])] = nan
     return Judgement(
         time, codes[:, 0], said[:, TILT], said[:, LEAN], said[:, RATE], said[:, LIMIT] - said[:, LEAN],
-        said[:, IMPACT], lean, events, ready,
+        said[:, IMPACT], lean, events, ready, attitude.flags,
     )  # fmt: skip
 
 
