@@ -76,15 +76,18 @@ class Health:
         """packets that came more than 50 ms later than its clock says"""
         self.heard = 0.0
         """s, monotonic, of the last packet"""
+        self.packets = 0
+        """since the last tick that had samples of it"""
         self.silent = False
         self.silence = _SILENCE
         self._interval = self._ticked = 0.0
         self._counted: deque[tuple[float, int]] = deque()
 
     def ticked(self, now: float, late: bool = False) -> None:
-        """A tick had samples of it; from one that comes *late* nothing is learned of the device."""
-        interval = now - self._ticked
-        if self._ticked and interval < 1.0 and not late:
+        """A tick had samples of it; in one that comes *late* several packets may have gathered."""
+        interval = (now - self._ticked) / (max(self.packets, 1) if late else 1)
+        self.packets = 0
+        if self._ticked and interval < 1.0:
             self._interval += (0.05 if self._interval else 1.0) * (interval - self._interval)
             self.silence = max(_SILENCE, 3.0 * self._interval)
         self._ticked = now
@@ -200,6 +203,7 @@ class Device:
     def _arrived_now(self, n: int, now: float) -> None:
         self.next += n
         self.health.samples += n
+        self.health.packets += 1
         if not self._waiting_samples:
             self._first_arrived = now
         self._waiting_samples += n

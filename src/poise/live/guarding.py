@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from math import isfinite, nan
+from math import inf, isfinite, nan
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,7 +34,7 @@ class Guarding:
 
     def __init__(self, hub: Hub) -> None:
         self._hub = hub
-        self._before, self._late = nan, False
+        self._before, self._late_since = nan, inf
         self._overloaded = -_OVERLOADED
 
     def overloaded(self, now: float) -> bool:
@@ -91,10 +91,11 @@ class Guarding:
         the silence of a device is told all the same, within 0.2 s as long as ticks take no more than half of that.
         """
         period, self._before = now - self._before, now
-        first, self._late = late and not self._late, late
+        first = late and self._late_since == inf
+        self._late_since = min(self._late_since, now) if late else inf
         if first:
             return
-        if late:
+        if now - self._late_since >= _BUSY:
             if not self.overloaded(now):
                 self._hub.event("overloaded", None, f"overloaded: ticks are late, {1e3 * period:.0f} ms for the last")
             self._overloaded = now
