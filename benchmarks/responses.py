@@ -165,6 +165,7 @@ def measured(scene: Scene, trials: int) -> list[float]:
         if scene.burner:
             stack.enter_context(burning())
         responses = stack.enter_context(responding(scene.slow))
+        responses.handle(UPRIGHT)  # from the start on it is cut
         pin = factory.pin(PIN)
         handle: Callable[[], None] = lambda: responses.handle(TIPPING)  # noqa: E731
         if scene.handed_over:

@@ -54,6 +54,31 @@ def test_it_tells_what_would_have_been_triggered(here: Path, capsys: pytest.Capt
     assert len(found[1]["missed"]) == 1  # the same falls are asked of each file
 
 
+def test_the_lead_is_not_known_where_nobody_saw_the_ground(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A gyroscope of 250 °/s clips in the fall, and the attitude is unknown until long after it."""
+    recording = replace(fall(), truth=None, moving=None)
+    most = np.radians(120.0)
+    poise.write(replace(recording, gyr=np.clip(recording.gyr, -most, most)), "clipped.csv")
+    attitude = poise.estimate(poise.Tilt(), poise.read("clipped.csv"))
+    judgement = judge(attitude, poise.read("clipped.csv"))
+    states = [event.state.name for event in judgement.events]
+    assert states[states.index("TIPPING") + 1] == "UNKNOWN"
+    first = dry_run(judgement).alarms[0]
+    lost = next(event.time for event in judgement.events if event.time > first.event.time)
+    assert np.isnan(first.lead) and np.isnan(first.ground)
+    assert first.at_least == pytest.approx(lost - first.event.time) and "gyroscope's range" in first.doubt
+    assert all(np.isnan(alarm.lead) for alarm in dry_run(judgement).alarms)  # nor of what is told after the loss
+    (known,) = dry_run(judgement, [5.8]).alarms[:1]
+    assert 0.15 < known.lead < 0.4 and known.doubt == ""  # the truth says when
+    assert run(["tipover", "clipped.csv", "-m", "tilt", "--report"]) == 0
+    out, err = capsys.readouterr()
+    assert f"at least {first.at_least:.2f}" in out and "lead not known" in err and "gyroscope's range" in err
+    (one,) = said(capsys, "clipped.csv")["results"]
+    alarm = one["alarms"][0]
+    assert alarm["lead"] is None and alarm["lead_at_least"] == pytest.approx(first.at_least)
+    assert "gyroscope's range" in alarm["lead_unknown"]
+
+
 def test_false_alarms_are_counted_by_the_hour(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (one,) = said(capsys, "fall.csv", "--falls", "none")["results"]
     assert [alarm["true"] for alarm in one["alarms"]] == [False]
@@ -134,6 +159,7 @@ def test_an_attitude_is_judged_without_specific_force(here: Path, capsys: pytest
         (["--tare", "5,2"], "the start first"),
         (["--falls", "often"], "--falls 'often'"),
         (["--falls", "nan"], "--falls 'nan'"),
+        (["--falls", "999"], "--falls 999: fall.csv lasts from 0.00 to "),
         (["--config", "absent.toml"], "--config absent.toml: cannot be read"),
         (["--config", "fall.csv"], "no TOML file"),
         (["--plot", "picture.txt"], "--plot"),

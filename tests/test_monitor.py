@@ -270,6 +270,47 @@ def test_a_fall_is_told_after_a_loss_in_it() -> None:
     assert first(found.events, "TIPPING") == pytest.approx(1.35)
 
 
+@pytest.mark.parametrize("rate", [50.0, 200.0])
+def test_a_fall_while_the_clock_stands_still_is_unknown_not_upright(rate: float) -> None:
+    time = times(4.0, rate)
+    lean = np.where(time < 2.0, 0.0, np.minimum(3.0 * (time - 2.0), 1.5))
+    attitude = poise.Attitude.of(np.minimum(time, 2.0), _leaning(lean))
+    judgement = judge(attitude)
+    last = np.flatnonzero(judgement.state == TipState.UPRIGHT)[-1]
+    assert time[last] - 2.0 < max(0.05, 4.5 / rate)
+    assert (judgement.state[last + 1 :] == TipState.UNKNOWN).all()
+    assert judgement.events[-1].reason == "its clock stands still"
+    monitor = Monitor()
+    events = [event for row in range(len(attitude)) for event in monitor.update(attitude[row : row + 1])]
+    assert repr(events) == repr(judgement.events)  # NaN is not NaN
+    again = judge(poise.Attitude.of(np.where(time < 3.0, np.minimum(time, 2.0), time), _leaning(0.0 * lean)))
+    assert again.state[-1] == TipState.UPRIGHT  # it goes on
+
+
+@pytest.mark.parametrize("sizes", [(10,), (4, 12, 7), (40,), (1, 10), (1, *[10] * 500)])
+def test_packets_that_share_a_stamp_are_judged_as_ever(sizes: tuple[int, ...]) -> None:
+    time = times(10.0, 100.0)
+    ends = np.cumsum(np.resize(sizes, 1000))
+    stamps = time[np.minimum(ends[np.searchsorted(ends, np.arange(1000), side="right")], 1000) - 1]
+    standing = judge(poise.Attitude.of(stamps, _leaning(np.zeros(1000)))).events
+    assert [event.state for event in standing] == [TipState.UPRIGHT]
+    lean = toppling(time, 8.0)
+    assert TipState.TIPPING in [event.state for event in judge(poise.Attitude.of(stamps, _leaning(lean))).events]
+
+
+def test_stamps_that_are_missing_now_and_then_are_no_standstill() -> None:
+    time = times(4.0, 100.0)
+    time[100:300:3] = nan
+    time[250] = -5.0
+    assert [e.state for e in judge(poise.Attitude.of(time, _leaning(np.zeros(400)))).events] == [TipState.UPRIGHT]
+
+
+def _leaning(lean: ArrayLike) -> NDArray[np.float64]:
+    """(n, 4) quaternions of a body that leans forward by *lean* rad."""
+    half = 0.5 * np.asarray(lean, float)
+    return np.column_stack([np.cos(half), -np.sin(half), 0.0 * half, 0.0 * half])
+
+
 def test_silence_is_unknown_within_50_ms_and_said_once() -> None:
     monitor, attitude = Monitor(), leaning(times(1.0), 1.0)
     assert names(monitor.check(0.0)) == [] and monitor.state is TipState.UNKNOWN  # nothing has come yet

@@ -151,6 +151,50 @@ def test_the_pin_moves_and_holds_until_acknowledged(tmp_path: Path, board: Any, 
     assert pin.function == "input" and levels(board, 17)[before - 1] is not cut
 
 
+@pytest.mark.parametrize("unknown", ["ignore", "warn", "as tipping"])
+@pytest.mark.parametrize("fail_safe", ["cut", "release"])
+def test_the_power_comes_on_once_the_body_is_known_to_stand(
+    tmp_path: Path, board: Any, unknown: str, fail_safe: str
+) -> None:
+    relay = {"type": "relay", "pin": 17, "active_high": True, "fail_safe": fail_safe}
+    cut = fail_safe == "cut" or unknown == "as tipping"
+    stage = {"name": "fall", "state": ["tipping", "fallen"], "fire": ["power"]}
+    with made(tmp_path, {"power": relay, "log": dict(LOG)}, stage, unknown=unknown) as responses:
+        pin = board.pin(17)
+        assert bool(pin.state) is cut and responses.active == (("start",) if cut else ())
+        if fail_safe == "cut":
+            assert True in levels(board, 17) and False not in levels(board, 17)[1:]  # not for an instant
+        assert responses.acknowledge() == (("start",) if cut else ())
+        for state in (TipState.LEANING, TipState.FALLEN, TipState.UNKNOWN, TipState.FALLEN):
+            responses.handle(TipEvent(1.0, state, TipState.UNKNOWN))
+            assert bool(pin.state) is (cut or state != TipState.LEANING)
+        responses.handle(UPRIGHT)
+        assert bool(pin.state) is True and responses.active == ("fall",)  # it was seen lying
+        assert responses.acknowledge() == () and not pin.state
+        responses.handle(TipEvent(9.0, TipState.UNKNOWN, TipState.UPRIGHT))
+        assert bool(pin.state) is (unknown == "as tipping")  # running, it is the policy alone
+    released = [line["stage"] for line in lines(tmp_path) if line["kind"] == "released"]
+    assert ("start" in released) is cut
+
+
+def test_a_robot_that_never_sends_is_unknown(tmp_path: Path, board: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("poise.responses.staging._PATIENCE", 0.2)
+    relay = {"type": "relay", "pin": 17, "active_high": True, "fail_safe": "release"}
+    for unknown, cut in (("warn", False), ("as tipping", True), ("ignore", False)):
+        (tmp_path / "alarms.jsonl").unlink(missing_ok=True)
+        with made(tmp_path, {"power": dict(relay), "log": dict(LOG)}, unknown=unknown) as responses:
+            told = lambda: [line for line in lines(tmp_path) if line["kind"] == "fired"]  # noqa: E731
+            if unknown == "ignore":
+                time.sleep(0.5)
+                assert not told()
+            else:
+                assert until(told)
+                assert told()[0]["reason"] == "no attitude since the start"
+            assert bool(board.pin(17).state) is cut
+            assert ("tipping" in responses.active) is cut
+        board.reset()
+
+
 def test_at_the_end_the_power_is_cut(tmp_path: Path, board: Any) -> None:
     relay = {"type": "relay", "pin": "GPIO4", "active_high": True}
     with pytest.raises(ZeroDivisionError), made(tmp_path, {"power": relay}):
@@ -199,6 +243,7 @@ def test_a_relay_that_fails_is_told_and_the_next_one_tried(tmp_path: Path, board
         "log": dict(LOG),
     }
     with made(tmp_path, relays) as responses:
+        responses.handle(UPRIGHT)
         pin = board.pin(17)
 
         def drive(value: bool) -> None:

@@ -63,7 +63,7 @@ def test_the_configuration_and_the_program_run(
     assert (tmp_path / "said.wav").stat().st_size > 20_000
     assert True in [bool(each.state) for each in board.pin(17).states]
     kinds = [json.loads(line)["kind"] for line in (tmp_path / "alarms.jsonl").read_text().splitlines()]
-    assert kinds == ["test", "started", "fired", "event", "acknowledged", "closed"]
+    assert kinds == ["test", "started", "released", "event", "fired", "event", "acknowledged", "closed"]
 
 
 def test_a_service_that_is_stopped_cuts_the_power(tmp_path: Path) -> None:

@@ -95,7 +95,7 @@ def live(
         A TOML file with the tip-over monitor's parameters, as for `poise tipover`: every device is watched.
     respond
         `DEVICE=FILE.toml`: what answers when that device tips over, as for `poise respond`, with the monitor's parameters in
-        the same file. Repeat for more devices.
+        the same file. Repeat for more devices. `POST /devices/DEVICE/acknowledge` says that an alarm has been seen.
     joint
         `NAME=SEGMENT/BASE`: how the device SEGMENT stands seen from the device BASE, as a device of its own. Repeat for more.
     max_rate

@@ -19,7 +19,7 @@ from poise.errors import FormatError
 if TYPE_CHECKING:
     from poise.data.event import TipEvent
     from poise.data.recording import Recording
-    from poise.monitor import DryRun, Judgement, TipOver
+    from poise.monitor import Alarm, DryRun, Judgement, TipOver
 
 _MOST = 40  # events of a file that are printed
 
@@ -75,6 +75,7 @@ def tipover(
 
         running.warm()
         results, refused = show.each(files, work)
+        _check_falls(grounds, results)
     except UsageError as error:
         show.problem(error)
         return 2
@@ -100,6 +101,19 @@ def _falls(text: str | None) -> list[float] | None:
     if not found or not all(map(isfinite, found)):
         usage(f"--falls {text!r}: expected seconds such as 12.3,80, or none")
     return found
+
+
+def _check_falls(grounds: list[float] | None, results: list[dict[str, Any]]) -> None:
+    """A fall outside of every recording would make each right alarm a false one."""
+    import numpy as np
+
+    times = {result["file"].name: result["judgement"].time for result in results}
+    known = {name: time[np.isfinite(time)] for name, time in times.items()}
+    spans = {name: (float(time.min()), float(time.max())) for name, time in known.items() if len(time)}
+    for ground in grounds or ():
+        if spans and not any(start <= ground <= end for start, end in spans.values()):
+            lasts = ", ".join(f"{name} lasts from {start:z.2f} to {end:z.2f} s" for name, (start, end) in spans.items())
+            usage(f"--falls {ground:g}: {lasts}")
 
 
 def _watched(
@@ -160,7 +174,9 @@ def _document(result: dict[str, Any]) -> dict[str, Any]:
         "seconds": {state.name.lower(): seconds for state, seconds in judgement.seconds().items()},
         "events": [_event(event) for event in judgement.events],
         "alarms": [
-            _event(alarm.event) | {"ground": alarm.ground, "lead": alarm.lead, "true": alarm.true}
+            _event(alarm.event)
+            | {"ground": alarm.ground, "lead": alarm.lead, "true": alarm.true}
+            | {"lead_at_least": alarm.at_least, "lead_unknown": alarm.doubt or None}
             for alarm in outcome.alarms
         ],
         "falls": [vars(fall) for fall in outcome.falls or []] if known else None,
@@ -253,12 +269,18 @@ def _tell_events(result: dict[str, Any]) -> None:
         show.note(f"{result['file'].name}: {len(rows) - _MOST} more; --json has all")
 
 
+def _lead(alarm: Alarm) -> str:
+    if isnan(alarm.lead):
+        return f"at least {alarm.at_least:.2f}" if isfinite(alarm.at_least) else "not known"
+    return f"{alarm.lead:.2f}"
+
+
 def _tell_alarms(result: dict[str, Any]) -> None:
     outcome: DryRun = result["outcome"]
     name = result["file"].name
     words = {True: "a fall", False: "false", None: "not known"}
     alarms = [
-        [alarm.event.time, alarm.event.direction or "-", alarm.ground, alarm.lead, words[alarm.true]]
+        [alarm.event.time, alarm.event.direction or "-", alarm.ground, _lead(alarm), words[alarm.true]]
         for alarm in outcome.alarms
     ]
     if alarms:
@@ -267,6 +289,11 @@ def _tell_alarms(result: dict[str, Any]) -> None:
         show.table(f"{name}: alarms; the ground as {by} has it", columns, alarms[:_MOST])
     else:
         show.note(f"{name}: no alarm")
+    for alarm in outcome.alarms[:_MOST]:
+        if alarm.doubt and alarm.true is not True:
+            show.note(
+                f"{name}: alarm at {alarm.event.time:.2f} s, lead not known, the ground was not seen: {alarm.doubt}"
+            )
     for fall in outcome.missed[:_MOST]:
         show.note(f"{name}: missed: a fall at {fall.ground if isnan(fall.start) else fall.start:.2f} s")
     seconds = result["judgement"].seconds()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -46,6 +47,26 @@ class Batch:
     @classmethod
     def empty(cls, rows: Floats, spans: list[Span], n: int, wall: float) -> Batch:
         return cls(spans, rows, np.empty((n, COLUMNS)), np.empty(n, np.uint32), wall)
+
+    def of(self, keep: Callable[[Device], bool]) -> Batch:
+        """The same of some of the devices only."""
+        spans = [span for span in self.spans if keep(span.device)]
+        kept_rows, kept_out = np.zeros(len(self.rows), bool), np.zeros(len(self.flags), bool)
+        for span in spans:
+            kept_rows[span.rows], kept_out[span.out] = True, True
+        row, out = (np.cumsum(kept) - kept for kept in (kept_rows, kept_out))  # of each, how many are kept before it
+
+        def moved(where: slice, before: NDArray[np.int64]) -> slice:
+            start = int(before[where.start])
+            return slice(start, start + where.stop - where.start)
+
+        spans = [span._replace(rows=moved(span.rows, row), out=moved(span.out, out)) for span in spans]
+        return Batch(spans, self.rows[kept_rows], self.table[kept_out], self.flags[kept_out], self.wall)
+
+    def sound(self) -> Batch:
+        """The same without devices whose run has failed."""
+        failed = any(span.device.failed for span in self.spans)
+        return self.of(lambda device: not device.failed) if failed else self
 
     def records(self) -> NDArray[np.void]:
         """(n,) every attitude as viewers get it (:data:`poise.live.frames.ATTITUDE`)."""
@@ -132,10 +153,12 @@ class Newest:
         self.change += 1
         self.versions[slot] = self.change
 
-    def silence(self, slot: int) -> None:
-        """What its record says is no longer known."""
+    def silence(self, slot: int, tip: int | None = None) -> None:
+        """What its record says is no longer known, and *tip* is the state of its body."""
         if self.versions[slot]:
             record = self.records[slot]
+            if tip is not None:
+                record["tip"] = tip
             record["flags"] |= np.uint32(bits.SILENT)
             record["flags_since"] |= record["flags"]
             record["valid"] = 0

@@ -15,6 +15,8 @@ _FIT = 8  # bins before a drift is believed
 _JUMP = 1.0  # s: no network delays by that, but a clock that is set does
 _PATIENCE = 5.0  # s that packets may come later than by _JUMP before the clock is held to be set
 _MOST_DRIFT = 0.02  # of an RC oscillator
+_STANDS, _MOST_STANDS = 0.05, 0.5  # s that samples may come without the clock going on: at least, and whatever is usual
+_USUAL = 3.0  # times as long as usual
 
 
 class DeviceClock:
@@ -119,3 +121,43 @@ class DeviceClock:
 def _turns_down(at: list[float], values: list[float], a: int, b: int, c: int) -> bool:
     """Whether the point b lies on or above the line from a to c."""
     return (values[b] - values[a]) * (at[c] - at[a]) >= (values[c] - values[a]) * (at[b] - at[a])
+
+
+class Standstill:
+    """Whether a device's clock stands still while its samples come: then nothing tells how fast it turns, or falls.
+
+    Packets whose samples share a stamp are no standstill: how long they usually last is followed. More than 0.5 s is one
+    whatever is usual, since for so long nobody would see a fall.
+    """
+
+    def __init__(self) -> None:
+        self.stamp = nan
+        """s, the last one that was a number"""
+        self.standing = False
+        self._moved = nan  # s of the host
+        self._usual = 0.0  # s between moves
+
+    def see(self, stamps: Floats, host: float) -> None:
+        """Samples with these *stamps*, one or more, have arrived at *host* (s)."""
+        if self._moves(stamps):
+            if isfinite(self._moved):
+                lasted = host - self._moved
+                self._usual += 0.5 * (min(lasted, 4.0 * self._usual) - self._usual) if self._usual else lasted
+            self._moved, self.standing = host, False
+        elif isfinite(self._moved):
+            most = min(max(_STANDS, _USUAL * self._usual), _MOST_STANDS)
+            self.standing = host - self._moved >= most - 1e-9
+        else:
+            self._moved = host  # no stamp was a number yet
+
+    def _moves(self, stamps: Floats) -> bool:
+        last = float(stamps[-1])
+        if self.stamp < last < inf:  # nearly always
+            self.stamp = last
+            return True
+        known = np.concatenate([[self.stamp], stamps])
+        known = known[np.isfinite(known)]
+        first = not isfinite(self.stamp)
+        if len(known):
+            self.stamp = float(known[-1])
+        return bool((np.diff(known) > 0.0).any()) or (first and len(known) > 0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
+from collections.abc import Iterable
 from math import inf
 from typing import Any, NamedTuple
 
@@ -14,8 +15,8 @@ from poise.data.attitude import Attitude
 from poise.data.recording import check_unit_of_time
 from poise.estimators.engine import Stream
 from poise.live import frames
-from poise.live.clock import DeviceClock
-from poise.live.devices import Shape
+from poise.live.clock import DeviceClock, Standstill
+from poise.live.devices import DeviceError, Shape
 from poise.live.methods import Choice
 from poise.monitor import Monitor
 
@@ -75,14 +76,17 @@ class Health:
         """packets that came more than 50 ms later than its clock says"""
         self.heard = 0.0
         """s, monotonic, of the last packet"""
+        self.packets = 0
+        """since the last tick that had samples of it"""
         self.silent = False
         self.silence = _SILENCE
         self._interval = self._ticked = 0.0
         self._counted: deque[tuple[float, int]] = deque()
 
-    def ticked(self, now: float) -> None:
-        """A tick had samples of it."""
-        interval = now - self._ticked
+    def ticked(self, now: float, late: bool = False) -> None:
+        """A tick had samples of it; in one that comes *late* several packets may have gathered."""
+        interval = (now - self._ticked) / (max(self.packets, 1) if late else 1)
+        self.packets = 0
         if self._ticked and interval < 1.0:
             self._interval += (0.05 if self._interval else 1.0) * (interval - self._interval)
             self.silence = max(_SILENCE, 3.0 * self._interval)
@@ -110,7 +114,9 @@ class Device:
         self.runs: list[Running] = []
         self.wanted: tuple[Running | Choice, ...] = ()
         """the methods that it is to run once they are compiled; empty where it does"""
-        self.clock = DeviceClock()
+        self.clock, self.standstill = DeviceClock(), Standstill()
+        self.failed = ""
+        """the fault that ended its run, if any"""
         self.health = Health()
         self.allowance = Allowance()
         self.next = 0
@@ -136,6 +142,7 @@ class Device:
     def receive_frame(self, frame: bytes, now: float) -> int:
         """Takes a frame of samples; how many of them are new. Raises :class:`FrameError` for one that is malformed."""
         head = frames.head(frame)
+        self._check(frames.stamps(frame, head.size))
         skip = self._number(head.sequence, head.samples)
         if skip >= head.samples:
             return 0
@@ -147,11 +154,33 @@ class Device:
         return head.samples - skip
 
     def receive(self, rows: Floats, now: float, sequence: int = frames.UNNUMBERED) -> int:
-        """Takes (n, 12) samples, n ≥ 1, the first numbered *sequence*; how many of them are new."""
+        """Takes (n, 12) samples, n ≥ 1, the first numbered *sequence*; how many of them are new. Raises as above."""
+        self._check(rows[:, 0].tolist())
         skip = self._number(sequence, len(rows))
         if skip < len(rows):
             self._add(rows[skip:], now)
         return max(0, len(rows) - skip)
+
+    def _check(self, stamps: Iterable[float]) -> None:
+        """Before anything is counted, what cannot be taken is refused."""
+        if self.failed:
+            raise DeviceError(f"{self.name} is not run any more, until its methods are chosen anew: {self.failed}")
+        frames.check_stamps(stamps)
+
+    def fail(self, why: str) -> None:
+        """Its run has ended by a fault: what waits is given up, and nothing more is taken."""
+        self.failed = why
+        self.health.lost += self._apart + self._waiting_samples
+        self._ready.clear()
+        self._frames.clear()
+        self._parts.clear()
+        self._waiting_samples = self._apart = 0
+        self._all_waiting.pop(self, None)
+
+    def begin_anew(self) -> None:
+        """It is run again, by other streams: nothing that may have failed is kept."""
+        self.failed, self.monitor = "", None
+        self.clock, self.standstill = DeviceClock(), Standstill()
 
     def _add(self, rows: Floats, now: float) -> None:
         if self._stamps is not None:
@@ -174,6 +203,7 @@ class Device:
     def _arrived_now(self, n: int, now: float) -> None:
         self.next += n
         self.health.samples += n
+        self.health.packets += 1
         if not self._waiting_samples:
             self._first_arrived = now
         self._waiting_samples += n
@@ -281,13 +311,7 @@ class Device:
         health = self.health
         return {
             "id": self.name,
-            "state": "waiting"
-            if not health.samples
-            else "silent"
-            if health.silent
-            else "live"
-            if self.runs
-            else "starting",
+            "state": self._state(),
             "rate_hz": round(health.rate(now), 2),
             "samples": health.samples,
             "lost": health.lost,
@@ -301,4 +325,16 @@ class Device:
             "resets": {run.choice.name: run.stream.resets for run in self.runs},
             "clock_drift_ppm": round(self.clock.drift_ppm, 2),
             "clock_restarts": self.clock.restarts,
+            "failed": self.failed or None,
         }
+
+    def _state(self) -> str:
+        if self.failed:
+            return "failed"
+        if not self.health.samples:
+            return "waiting"
+        if self.health.silent:
+            return "silent"
+        if not self.runs:
+            return "starting"
+        return "standing" if self.standstill.standing else "live"

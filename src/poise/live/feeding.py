@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 import time
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -15,6 +16,11 @@ if TYPE_CHECKING:
     from poise.live.hub import Hub
 
 
+LOGGER = logging.getLogger("poise.live")
+
+_MOST_TOLD = 100  # names and reasons of one source that are told one by one
+
+
 class Feeding:
     """A hub's sources."""
 
@@ -25,6 +31,7 @@ class Feeding:
         self.ended: dict[Source, str] = {}
         """sources that give nothing any more, each with what went wrong, if anything"""
         self._said: dict[str, object] = {}
+        self._told: dict[Source, set[tuple[str, str]]] = {}
 
     async def feed(self, source: Source) -> None:
         """A source's packets to the hub; what goes wrong with it is an event, and other devices go on."""
@@ -44,7 +51,7 @@ class Feeding:
                     else:
                         self._throttle(device, len(arrival.rows))
                 except PoiseError as problem:
-                    self._refused(device, source.name, problem)
+                    self._refused(device, source, arrival.device, problem)
                 while waits and device is not None and not device.runs:
                     await asyncio.sleep(0.02)  # for the method to be loaded
             self.ended[source] = ""
@@ -52,6 +59,10 @@ class Feeding:
         except (PoiseError, OSError) as problem:
             self.ended[source] = str(problem)
             self.hub.event("failed", None, f"{source.name}: {problem}")
+        except Exception as problem:  # a fault of ours in one source: the others go on
+            LOGGER.exception("%s failed", source.name)
+            self.ended[source] = f"{type(problem).__name__}: {problem}"
+            self.hub.event("failed", None, f"{source.name}: {self.ended[source]}")
 
     def conditions(self) -> list[dict[str, Any]]:
         """How the sources fare: *ok*, *ended*, *waiting* for one that is away, or *failed* for good, and why."""
@@ -81,10 +92,17 @@ class Feeding:
             text = f"more than {self.hub.max_rate:g} samples a second are not taken; `--max-rate` allows more"
             self.hub.event("throttled", device, f"{device.name}: {text}")
 
-    def _refused(self, device: Device | None, source: str, problem: PoiseError) -> None:
-        """Counts what a device should not have sent; says so at the first and then every thousandth time."""
+    def _refused(self, device: Device | None, source: Source, name: str, problem: PoiseError) -> None:
+        """Counts what a device should not have sent; says so once a name and reason, and then every thousandth time.
+
+        Names and reasons can be made up: of one source so many are told one by one.
+        """
         self.refused += 1
         if device is not None:
             device.health.rejected += 1
-        if (self.refused if device is None else device.health.rejected) % 1000 == 1:
-            self.hub.event("refused", device, f"{device.name if device else source}: {problem}")
+        told, what = self._told.setdefault(source, set()), (name, str(problem))
+        new = what not in told and len(told) < _MOST_TOLD
+        if new:
+            told.add(what)
+        if new or self.refused % 1000 == 1:
+            self.hub.event("refused", device, f"{device.name if device else source.name}: {problem}")

@@ -6,6 +6,8 @@ Both kinds begin with 16 bytes: version, kind, size of a record, number of recor
 from __future__ import annotations
 
 import struct
+from collections.abc import Iterable
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -21,8 +23,13 @@ SAMPLES, ATTITUDES, MOTION = 1, 2, 3
 HEADER = struct.Struct("<BBHIQ")
 UNNUMBERED = 2**64 - 1
 """The sequence number of a device that does not count its samples: the server counts them."""
+MOST_NUMBER = 2**62
+"""the largest number that a device may give a sample: what follows is counted from there, and must never overflow"""
 MOST_SAMPLES = 4096
 """in one frame"""
+FARTHEST = 1e12
+"""s from zero that a stamp may be: further away a float does not tell 0.1 ms, and sums of two stamps may overflow"""
+_STAMPS = {80: struct.Struct("<d72x"), 96: struct.Struct("<d88x")}
 _SIZES = (80, 8 * WIDTH)  # time, gyr, acc, mag; and with acc_age, mag_age
 
 ATTITUDE = np.dtype(
@@ -67,6 +74,7 @@ def head(frame: bytes, of: int = SAMPLES) -> Head:
         raise FrameError(f"a frame begins with {HEADER.size} bytes of header; this one has {len(frame)} bytes")
     version, kind, size, count, sequence = HEADER.unpack_from(frame)
     if len(frame) == HEADER.size + size * count and version == VERSION and kind == of:
+        check_number(sequence)
         known = size in _SIZES[: 1 if of == MOTION else 2]
         if known and 0 < count <= MOST_SAMPLES:
             return Head(size, count, sequence)
@@ -81,6 +89,24 @@ def head(frame: bytes, of: int = SAMPLES) -> Head:
     raise FrameError(
         f"{count} samples of {size} bytes need a frame of {HEADER.size + size * count} bytes, this one has {len(frame)}"
     )
+
+
+def check_number(sequence: int) -> None:
+    """Raises :class:`FrameError` for the number of a sample that a device cannot have got to."""
+    if not 0 <= sequence <= MOST_NUMBER and sequence != UNNUMBERED:
+        raise FrameError(f"sequence: expected a whole number from 0 to 2**62, or 2**64 - 1 for none, found {sequence}")
+
+
+def check_stamps(stamps: Iterable[float]) -> None:
+    """Raises :class:`FrameError` for a time that no clock shows. NaN and infinity pass: the guard knows missing stamps."""
+    for stamp in stamps:
+        if FARTHEST < abs(stamp) < inf:
+            raise FrameError(f"time: expected seconds, at most {FARTHEST:g} from zero, found {stamp:g}")
+
+
+def stamps(frame: bytes, size: int) -> Iterable[float]:
+    """The stamps of a frame whose samples have *size* bytes, without an array: most frames hold one."""
+    return (stamp for (stamp,) in _STAMPS[size].iter_unpack(memoryview(frame)[HEADER.size :]))
 
 
 def samples(frame: bytes) -> Floats:

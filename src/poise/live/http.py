@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import os
+import time
 from collections.abc import AsyncIterator, MutableMapping
 from math import degrees, isfinite
 from typing import TYPE_CHECKING, Any
@@ -36,6 +37,7 @@ GET  /devices                      devices and their methods
 GET  /devices/NAME/attitude        the latest attitude
 PUT  /devices/NAME/methods         change what a device runs
 POST /devices/NAME/heading         "this way is forward"
+POST /devices/NAME/acknowledge     an alarm was seen: what holds until then may end
 PUT  /joints/NAME                  a device seen from another: {"segment": …, "base": …}; DELETE
 GET  /methods                      methods and their parameters
 GET  /events                       what happens, as server-sent events
@@ -98,6 +100,10 @@ def application(server: Server) -> App:
             return Response(status_code=204)
         server.change("joint", await _object(request) | {"name": name})
         return JSONResponse(hub.joints.all[name].described(hub.devices))
+
+    async def acknowledge(request: Request) -> Response:
+        name = request.path_params["name"]
+        return JSONResponse({"device": name, "holding": server.acknowledge(name)})
 
     making = asyncio.Lock()  # one at a time: making a file takes a core
 
@@ -194,6 +200,7 @@ def application(server: Server) -> App:
             Route("/devices/{name}/attitude", attitude),
             Route("/devices/{name}/methods", change, methods=["PUT"]),
             Route("/devices/{name}/heading", change, methods=["POST"]),
+            Route("/devices/{name}/acknowledge", acknowledge, methods=["POST"]),
             Route("/joints/{name}", joint, methods=["PUT", "DELETE"]),
             Route("/methods", methods),
             Route("/films", films),
@@ -236,6 +243,8 @@ class _Push:
     async def __call__(self, scope: MutableMapping[str, Any], receive: Receive, send: Send) -> None:
         await receive()
         try:
+            if self._server.films:
+                raise HubError("this is `poise view`, which plays recordings: devices push to `poise live`")
             socket = DeviceSocket(self._server, scope["path_params"]["name"], send, scope.get("query_string", b""))
         except PoiseError as problem:
             await send({"type": "websocket.http.response.start", "status": 400, "headers": []})
@@ -247,8 +256,14 @@ class _Push:
 
 def server_health(server: Server) -> tuple[bool, list[str]]:
     """Whether all is well, and what is not."""
-    reasons = [f"{d.name} is silent" for d in server.hub.devices.values() if d.health.silent and d.silent_for(1.0)]
+    devices = server.hub.devices.values()
+    reasons = [f"{d.name} is silent" for d in devices if d.health.silent and d.silent_for(1.0)]
+    reasons += [f"{d.name}: its clock stands still" for d in devices if d.standstill.standing and not d.failed]
     bad = [f"{c['name']}: {c['text']}" for c in server.feeding.conditions() if c["state"] in ("waiting", "failed")]
+    bad += [f"{d.name}: its run has ended by a fault: {d.failed}" for d in devices if d.failed]
+    bad += server.missing.reasons()
+    if server.hub.guarding.overloaded(time.monotonic()):
+        bad.append("overloaded: ticks are late, so that silence is told later")
     if server.recorder is not None and (reason := server.recorder.condition()["reason"]):
         bad.append(f"not recording: {reason}")
     return not bad, bad + reasons

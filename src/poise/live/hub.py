@@ -9,20 +9,20 @@ from typing import Any
 
 import numpy as np
 
-from poise.data.attitude import Attitude, Provenance
-from poise.data.event import TipEvent
+from poise.data.attitude import Attitude
 from poise.data.flags import INVALID
 from poise.errors import PoiseError
 from poise.estimators.engine import Stream
 from poise.live.batch import Batch, Newest, Span
 from poise.live.device import Device, Running
 from poise.live.devices import Shape
+from poise.live.guarding import Guarding
 from poise.live.happened import Happened
 from poise.live.joint import Joint
 from poise.live.joints import Joints
 from poise.live.methods import Choice, startable, warmed
 from poise.live.waits import Waits, WaitsOf
-from poise.live.watching import Watch, as_facts, as_text
+from poise.live.watching import Watch
 
 _EVENTS = 1000
 MOST_DEVICES = 10_000
@@ -65,6 +65,8 @@ class Hub:
         self._event_number = 0
         self._last_tick = 0.0
         self.waits, self.waits_of = Waits(), WaitsOf()
+        self.guarding = Guarding(self)
+        self.joints.on_fault.append(self._joint_failed)
         self.tick_cost = 0.0
         """s, the running mean of what a tick with samples takes"""
 
@@ -129,6 +131,10 @@ class Hub:
         self.event("joint", None, f"joint {name} is no more")
         self._changed()
 
+    def _joint_failed(self, joint: Joint, why: str) -> None:
+        self.event("failed", None, f"joint {joint.name} has failed and is no more: {why}")
+        self._changed()
+
     @property
     def shown(self) -> list[Device | Joint]:
         """All that viewers are shown: devices and the joints between them."""
@@ -146,7 +152,7 @@ class Hub:
 
         No sample is lost or counted twice: until then it runs what it ran. Methods that it runs already go on.
         """
-        kept = {run.choice: run for run in device.runs}
+        kept = {} if device.failed else {run.choice: run for run in device.runs}
         device.wanted = tuple(kept.get(choice) or choice for choice in methods)
         self.wanting.add(device)
         if all(isinstance(each, Running) or warmed(each) for each in device.wanted):
@@ -160,6 +166,9 @@ class Hub:
     def switch(self, device: Device) -> None:
         """Puts the wanted methods of *device* in place, between two samples."""
         latest = next((run.stream.latest for run in device.runs if run.stream.latest is not None), None)
+        if device.failed:  # what it said last is not to be built upon
+            latest = None
+            device.begin_anew()
         runs, taken = [], {each.number for each in device.wanted if isinstance(each, Running)}
         for each in device.wanted:
             if isinstance(each, Running):
@@ -204,39 +213,28 @@ class Hub:
         """Runs every sample that has arrived through its device's methods; *now* is the host's monotonic clock, s."""
         now = time.monotonic() if now is None else now
         late, self._last_tick = now - self._last_tick > self.pause + _LATE_TICK, now
-        batch = self._advance(now) if self._waiting else None
-        if not late:
-            self._hush(now)
+        batch = self._advance(now, late) if self._waiting else None
+        self.guarding.hush(now, late)
         return batch
 
-    def _advance(self, now: float) -> Batch | None:
+    def _advance(self, now: float, late: bool) -> Batch | None:
         began = time.perf_counter()
-        ready = [device for device in self._waiting if device.runs]
-        if not ready:
+        ready, arrived, batch = self._taken(time.time() - now)
+        if batch is None:
             return None
-        for device in ready:
-            del self._waiting[device]
-        wall = time.time() - now  # from the monotonic clock to the calendar's
-        parts, spans, row, out, arrived = [], [], 0, 0, []
-        for device in ready:
-            taken = device.take()
-            parts.append(taken.rows)
-            first, n = taken.sequence, len(taken.rows)
-            device.clock.update(float(taken.rows[-1, 0]), taken.arrived)
-            device.health.late += device.clock.late > _LATE_PACKET
-            arrived.append(taken.first_arrived)
-            for run in device.runs:
-                spans.append(Span(device, run, first, slice(row, row + n), slice(out, out + n)))
-                out += n
-            row += n
-        rows = np.concatenate(parts) if len(parts) > 1 else parts[0]
-        batch = Batch.empty(rows, spans, out, wall)
-        for span in spans:
-            span.run.stream.update_rows(rows[span.rows], batch.table[span.out], batch.flags[span.out])
-        self._note(batch, ready, now)
-        if self.watch is not None:
-            self._judge(batch)
-        self.newest.put(batch)
+        for span in batch.spans:
+            if not span.device.failed:
+                try:
+                    span.run.stream.update_rows(batch.rows[span.rows], batch.table[span.out], batch.flags[span.out])
+                except Exception as problem:
+                    self.guarding.fail(span.device, problem)
+        batch = batch.sound()
+        if batch.spans:
+            self.guarding.judge(batch)
+            batch = self._put(batch.sound())
+        if not batch.spans:
+            return None
+        self._note(batch, now, late)
         self.joints.advance(batch, now)
         for told in self.on_batch:
             told(batch)
@@ -246,58 +244,62 @@ class Hub:
         self.tick_cost += 0.1 * (time.perf_counter() - began - self.tick_cost)
         return batch
 
-    def _note(self, batch: Batch, ready: list[Device], now: float) -> None:
+    def _taken(self, wall: float) -> tuple[list[Device], list[float], Batch | None]:
+        """The devices whose samples are to be run, since when those waited, and the samples; *wall*: from the monotonic
+        clock to the calendar's."""
+        waiting = [device for device in self._waiting if device.runs]
+        ready, arrived, parts, spans, row, out = [], [], [], [], 0, 0
+        for device in waiting:
+            del self._waiting[device]
+        for device in waiting:
+            try:
+                taken, stood = device.take(), device.standstill.standing
+                device.clock.update(float(taken.rows[-1, 0]), taken.arrived)
+                device.standstill.see(taken.rows[:, 0], taken.arrived)
+                self.guarding.clock(device, stood)
+            except Exception as problem:
+                self.guarding.fail(device, problem)
+                continue
+            ready.append(device)
+            arrived.append(taken.first_arrived)
+            parts.append(taken.rows)
+            n = len(taken.rows)
+            for run in device.runs:
+                spans.append(Span(device, run, taken.sequence, slice(row, row + n), slice(out, out + n)))
+                out += n
+            row += n
+        if not parts:
+            return ready, arrived, None
+        rows = np.concatenate(parts) if len(parts) > 1 else parts[0]
+        return ready, arrived, Batch.empty(rows, spans, out, wall)
+
+    def _put(self, batch: Batch) -> Batch:
+        """What viewers are shown from now on; where all at once cannot be, one device after the other."""
+        try:
+            if batch.spans:
+                self.newest.put(batch)
+        except Exception:
+            for device in dict.fromkeys(span.device for span in batch.spans):
+                try:
+                    self.newest.put(batch.of(lambda each, device=device: each is device))  # type: ignore[misc]
+                except Exception as problem:
+                    self.guarding.fail(device, problem)
+        return batch.sound()
+
+    def _note(self, batch: Batch, now: float, late: bool) -> None:
         """What each device's health is told of the tick."""
         bad = (batch.flags & np.uint32(INVALID)) != 0
         invalid = np.add.reduceat(bad, [span.out.start for span in batch.spans])
         for span, count in zip(batch.spans, invalid.tolist(), strict=True):
             span.run.invalid += count
-        for device in ready:
-            if device.health.silent:
-                device.health.silent = False
-                self.event("back", device, f"{device.name} is back")
-            device.health.ticked(now)
-
-    def _judge(self, batch: Batch) -> None:
-        """Each device's monitor looks at what its first method says."""
-        assert self.watch is not None
-        for span in batch.spans:
             device = span.device
             if span.run is not device.runs[0]:
                 continue
-            if device.monitor is None:
-                device.monitor = self.watch.monitor(device.name)
-            rows = batch.rows[span.rows]
-            attitude = Attitude.view(
-                rows[:, 0].copy(), batch.table[span.out], batch.flags[span.out], "arbitrary", Provenance()
-            )
-            self._tell(device, device.monitor.update(attitude, rows[:, 4:7]))
-
-    def _tell(self, device: Device, events: list[TipEvent]) -> None:
-        assert self.watch is not None
-        assert device.monitor is not None
-        device.tip = int(device.monitor.state)
-        for event in events:
-            self.event("tip", device, as_text(device.name, event), **as_facts(event))
-            self.watch.handle(device.name, event)
-
-    def _hush(self, now: float) -> None:
-        """Attitudes of devices that have fallen silent become unknown."""
-        for device in self.devices.values():
-            health = device.health
-            if device.runs and health.samples and not health.silent and now - health.heard > health.silence:
-                health.silent = True
-                health.silences += 1
-                since = max(now - health.heard, 0.06)  # a stream calls it silence from 0.05 s on
-                latest = device.runs[0].stream.latest
-                if device.monitor is not None and latest is not None:
-                    self._tell(device, device.monitor.check(float(latest.time[0]) + since))
-                for run in device.runs:
-                    latest = run.stream.latest
-                    if latest is not None:
-                        self.newest.unknown(run.slot, run.stream.check(float(latest.time[0]) + since), device.tip)
-                self.joints.silent(device)
-                self.event("silent", device, f"{device.name} is silent: its attitude is unknown")
+            device.health.late += device.clock.late > _LATE_PACKET
+            if device.health.silent:
+                device.health.silent = False
+                self.event("back", device, f"{device.name} is back")
+            device.health.ticked(now, late)
 
     def event(self, kind: str, device: Device | None, text: str, **facts: Any) -> None:
         """Notes that something happened and tells whoever listens."""

@@ -150,16 +150,20 @@ class Joint:
         """How it fares, with the keys of a device; the rates are its segment's."""
         both = [devices.get(self.segment), devices.get(self.base)]
         states = [each.condition(now) for each in both if each is not None]
-        silent = any(each["state"] == "silent" for each in states)
-        return {
-            "id": self.name,
-            "state": "silent" if silent else "live" if self.rows else "waiting",
-            "rate_hz": states[0]["rate_hz"] if both[0] is not None else 0.0,
-            "samples": self.rows,
-            "invalid": {"relative-to": self.invalid},
-            "resets": {"relative-to": 0},
-            "last_heard_s": max((each["last_heard_s"] or 0.0 for each in states), default=None),
-        } | dict.fromkeys(("lost", "repeated", "rejected", "silences", "clock_drift_ppm", "clock_restarts"), 0)
+        silent = any(each["state"] in ("silent", "standing", "failed") for each in states)
+        return (
+            {
+                "id": self.name,
+                "state": "silent" if silent else "live" if self.rows else "waiting",
+                "rate_hz": states[0]["rate_hz"] if both[0] is not None else 0.0,
+                "samples": self.rows,
+                "invalid": {"relative-to": self.invalid},
+                "resets": {"relative-to": 0},
+                "last_heard_s": max((each["last_heard_s"] or 0.0 for each in states), default=None),
+            }
+            | dict.fromkeys(("lost", "repeated", "rejected", "silences", "clock_drift_ppm", "clock_restarts"), 0)
+            | {"failed": None}
+        )
 
 
 def _on_host(device: Device, time: Floats) -> Floats:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,8 @@ from poise.live.joint import Joint
 if TYPE_CHECKING:
     from poise.live.batch import Batch, Newest
     from poise.live.device import Device
+
+LOGGER = logging.getLogger("poise.live")
 
 _MOST = 256
 
@@ -30,6 +33,8 @@ class Joints:
         self.all: dict[str, Joint] = {}
         self.on_rows: list[Callable[[Joint, Attitude, NDArray[np.void]], None]] = []
         """called with what a tick made of a joint: the rows, and as viewers get them"""
+        self.on_fault: list[Callable[[Joint, str], None]] = []
+        """called with a joint that is no more, since something in it failed, and why"""
         self._devices, self._newest = devices, newest
         self._of: dict[str, list[Joint]] = {}  # by the names of their devices
 
@@ -73,12 +78,23 @@ class Joints:
                 if span.run is span.device.runs[0]:
                     time = batch.rows[span.rows, 0].copy()
                     joint.take(span, time, batch.table[span.out], batch.flags[span.out], now)
-        for joint in self.all.values():
-            made = joint.advance(self._devices, now, batch.wall)
+        for joint in list(self.all.values()):
+            try:
+                made = joint.advance(self._devices, now, batch.wall)
+                if made is not None:
+                    self._newest.put_rows(joint.slot, made[1])
+            except Exception as problem:  # a fault of ours in one joint: devices and other joints go on
+                self._fail(joint, problem)
+                continue
             if made is not None:
-                self._newest.put_rows(joint.slot, made[1])
                 for told in self.on_rows:
                     told(joint, *made)
+
+    def _fail(self, joint: Joint, problem: Exception) -> None:
+        LOGGER.error("joint %s failed", joint.name, exc_info=problem)
+        self.remove(joint.name)
+        for told in self.on_fault:
+            told(joint, f"{type(problem).__name__}: {problem}")
 
     def silent(self, device: Device) -> None:
         """*device* has fallen silent, and with it the joints that it is part of."""

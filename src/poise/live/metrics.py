@@ -20,8 +20,11 @@ _DEVICE = (
     ("silences_total", "counter", "times it fell silent", "silences"),
     ("rate_hz", "gauge", "samples a second of late", "rate_hz"),
     ("silent", "gauge", "1 while nothing comes", "silent"),
+    ("standing", "gauge", "1 while its clock stands still", "standing"),
+    ("failed", "gauge", "1 after a fault has ended its run", "failed"),
     ("clock_drift_ppm", "gauge", "how much the host's clock gains on the device's", "clock_drift_ppm"),
 )
+_STATES = ("silent", "standing", "failed")
 
 
 def metrics(server: Server) -> str:
@@ -30,7 +33,7 @@ def metrics(server: Server) -> str:
     conditions = server.hub.conditions(server.hub.devices.values(), now)
     lines: list[str] = []
     for name, kind, text, key in _DEVICE:
-        values = [(_label(c), c["state"] == "silent" if key == "silent" else c[key]) for c in conditions]
+        values = [(_label(c), c["state"] == key if key in _STATES else c[key]) for c in conditions]
         _family(lines, f"poise_device_{name}", kind, text, values)
     invalid = [(f'{_label(c)},method="{m}"', n) for c in conditions for m, n in c["invalid"].items()]
     _family(lines, "poise_invalid_total", "counter", "attitudes not to be acted on", invalid)

@@ -132,7 +132,7 @@ class Recorder:
     def checkpoint(self, device: Device) -> None:
         """Keeps how *device* goes on from here."""
         runs = []
-        for run in device.runs:
+        for run in () if device.failed else device.runs:
             start = None
             if run.start is not None:
                 start = [run.start.quat[0].tolist(), run.start.bias[0].tolist(), run.start.heading_reference]

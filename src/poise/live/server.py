@@ -21,6 +21,7 @@ from poise.live.hub import Hub, HubError
 from poise.live.joint import Joint
 from poise.live.listening import Listening, Options
 from poise.live.methods import Choice, described
+from poise.live.missing import Missing
 from poise.live.session import rebuilt
 from poise.live.settled import Settled
 from poise.live.sockets import DeviceSocket, Viewer, choices
@@ -44,6 +45,7 @@ _FLAGS_EVERY = 0.25  # s that a flag stays in `flags_since`, so that every viewe
 _HEAD_START = (
     1.5  # s to load the methods before the first device is served: beside a busy loop it takes several times as long
 )
+_LAST_WAIT, _RECORDED_WAIT = 2.0, 120.0  # s at the end for methods that samples wait for; to be recorded, till compiled
 _LIST_EVERY = 0.2  # s between lists of devices
 _PAST_EVENTS = 50  # that a viewer is told when it comes
 _SLICE = 100  # devices in one message on health: thousands would hold up a tick
@@ -61,7 +63,7 @@ class Server:
         films: Sequence[Film] = (),
     ) -> None:
         self.hub, self.options, self.recorder = hub, options or Options(), recorder
-        self.feeding = Feeding(hub, sources)
+        self.feeding, self.missing = Feeding(hub, sources), Missing(hub)
         self.films = tuple(films)
         """recordings for pages to play"""
         self.viewers: dict[Viewer, None] = {}
@@ -108,8 +110,9 @@ class Server:
             finally:
                 for task in fed:
                     task.cancel()
-                while self.hub.starting and self._failure is None:  # their samples wait for a method to be loaded
-                    await asyncio.sleep(0.02)
+                until = time.monotonic() + (_RECORDED_WAIT if self.recorder is not None else _LAST_WAIT)
+                while self.hub.starting and self._failure is None and time.monotonic() < until:
+                    await asyncio.sleep(0.02)  # their samples wait for a method to be loaded
                 for task in list(self._tasks):
                     task.cancel()
                 await asyncio.gather(*self._tasks, return_exceptions=True)
@@ -161,6 +164,7 @@ class Server:
                 )
                 self._changed |= headings != before  # a magnetometer has spoken: zero means something else now
                 self.feeding.look()
+                self.missing.look(now)
                 self._settled.look(len(self.hub.devices) + len(self.device_sockets) + len(self.viewers))
             if slices:
                 self._say(partial(self.health, slices.pop()))
@@ -175,8 +179,9 @@ class Server:
         while (device := self.hub.next_to_restore()) is not None:
             try:
                 streams = await asyncio.to_thread(rebuilt, device)
-            except PoiseError as problem:
-                self.hub.event("refused", device, f"{device.name} begins anew: {problem}")
+            except Exception as problem:  # whatever its checkpoint holds
+                why = problem if isinstance(problem, PoiseError) else repr(problem)
+                self.hub.event("refused", device, f"{device.name} begins anew: {why}")
                 streams = []
             self.hub.restore(device, streams)
 
@@ -294,6 +299,9 @@ class Server:
             return self.hub.set_joint(*(str(asked.get(key, "")) for key in ("name", "segment", "base")))
         if kind == "remove_joint":
             return self.hub.remove_joint(str(asked.get("name")))
+        if kind == "acknowledge":
+            self.acknowledge(str(asked.get("device")))
+            return None
         device = self.hub.find(str(asked.get("device")))
         if device.to_restore is not None:
             raise HubError(f"{device.name} is being brought to where its recording ends; ask again in a moment")
@@ -305,6 +313,17 @@ class Server:
                 raise HubError(f"forward: expected a body axis such as y or -x, found {forward!r}")
             self.hub.reset_heading(device, forward)
         return None
+
+    def acknowledge(self, name: str) -> list[str]:
+        """Someone has seen the alarm of the device *name*; the stages that hold even so. Raises :class:`HubError`."""
+        known = {} if self.hub.watch is None else self.hub.watch.responses
+        if name not in known:
+            there = ", ".join(known) or "none: --respond NAME=FILE.toml"
+            raise HubError(f"no device {name[:80]!r} that responses answer; there are: {there}")
+        holding = known[name].acknowledge()
+        still = f"; until it stands upright, there holds: {', '.join(holding)}" if holding else ""
+        self.hub.event("acknowledged", self.hub.devices.get(name), f"{name}: acknowledged{still}")
+        return list(holding)
 
     async def events(self, after: int) -> AsyncIterator[dict[str, Any]]:
         """Events numbered above *after*, those of the past first."""

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from poise.live.server import Server
 
 _MOST_ERRORS = 10
-_CHANGES = ("methods", "reset_heading", "joint", "remove_joint")  # what takes the scope `write`
+_CHANGES = ("methods", "reset_heading", "joint", "remove_joint", "acknowledge")  # what takes the scope `write`
 _EVERY_FRAMES, _EVERY_BYTES = 512, 8 << 20  # that may wait for a viewer of every sample
 _POLICY, _TRY_LATER = 1008, 1013  # close codes
 _RAW_MOTION = bytes((frames.MOTION,))

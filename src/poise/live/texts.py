@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from poise.data.recording import samples
 from poise.errors import RecordingError
-from poise.live.frames import MOST_SAMPLES, UNNUMBERED, FrameError, widened
+from poise.live.frames import MOST_SAMPLES, UNNUMBERED, FrameError, check_number, widened
 
 Floats = NDArray[np.float64]
 
@@ -34,8 +34,9 @@ def from_json(text: str | bytes) -> tuple[Floats, int]:
     if one:
         values = {name: None if value is None else [value] for name, value in values.items()}
     sequence = found.get("sequence", UNNUMBERED)
-    if not isinstance(sequence, int) or not 0 <= sequence <= UNNUMBERED:
+    if not isinstance(sequence, int):
         raise FrameError(f"sequence: expected a whole number from 0 on, found {sequence!r}")
+    check_number(sequence)
     return rows_of(values), sequence
 
 

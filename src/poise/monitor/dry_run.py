@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import nan
+from math import inf, isfinite, nan
 
 import numpy as np
 from numpy.typing import NDArray
 
 from poise.data.attitude import RATE, Attitude
 from poise.data.event import TipEvent, TipState
+from poise.data.flags import SENTENCES, Flag, why_invalid
 from poise.data.recording import Recording
 from poise.monitor.judging import Judgement, judge
 
@@ -41,6 +42,10 @@ class Alarm:
     """s, when the body was at the angle of impact: by the truth where it is known, else by the attitude judged; NaN"""
     true: bool | None
     """whether it fell; None where the truth is not known"""
+    at_least: float = nan
+    """s that the lead is at least, where the attitude was unknown before the ground; NaN where that is not known either"""
+    doubt: str = ""
+    """why then nobody saw the ground"""
 
     @property
     def lead(self) -> float:
@@ -74,23 +79,23 @@ def dry_run(
     An empty sequence says that it never fell. The reference is judged by the same parameters, without look-ahead.
     """
     events = [e for e in judgement.events if e.state in _DOWN and e.before not in _DOWN]
-    own = [_ground(judgement, event.time) for event in events]
+    own = [_seen(judgement, event) for event in events]
     if truth is None:
-        return DryRun([Alarm(e, at, None) for e, at in zip(events, own, strict=True)], None, [], 0.0)
+        return DryRun(own, None, [], 0.0)
     if isinstance(truth, Attitude):
         falls, known, hours = _falls(judgement, truth, recording)
     else:
         falls = [Fall(nan, float(at), float(at)) for at in sorted(truth)]
         known, hours = np.ones(len(judgement), bool), _hours(judgement.time, np.ones(len(judgement), bool))
     alarms, told = [], set()
-    for event, at in zip(events, own, strict=True):
+    for event, seen in zip(events, own, strict=True):
         match = _fall_of(event.time, falls)
         if match is not None:
             told.add(match)
             alarms.append(Alarm(event, falls[match].ground, True))
         else:
             near = np.abs(judgement.time - event.time) <= _LATE
-            alarms.append(Alarm(event, at, False if known[near].all() else None))
+            alarms.append(replace(seen, true=False if known[near].all() else None))
     missed = [fall for i, fall in enumerate(falls) if i not in told and not _said(judgement, fall)]
     return DryRun(alarms, falls, missed, hours)
 
@@ -124,14 +129,15 @@ def _falls(
         table[:, RATE] = recording.gyr
         truth = replace(truth, table=table)
     seen = judge(truth, recording, judgement.tipover._replace(look_ahead=0.0))
-    falls, down = [], False
+    falls: list[Fall] = []
+    down = False
     for i, event in enumerate(seen.events):
         if event.state is TipState.UNKNOWN:  # a reference that is lost for a while ends no fall
             continue
         was, down = down, event.state in _DOWN
         if down and not was:
             after = (e.time for e in seen.events[i:] if e.state not in (*_DOWN, TipState.UNKNOWN))
-            falls.append(Fall(event.time, _ground(seen, event.time), next(after, float(np.nanmax(seen.time)))))
+            falls.append(Fall(event.time, _seen(seen, event).ground, next(after, float(np.nanmax(seen.time)))))
     known = seen.state != TipState.UNKNOWN
     return falls, known, _hours(seen.time, known)
 
@@ -148,10 +154,36 @@ def _hours(time: Floats, known: NDArray[np.bool_]) -> float:
     return float(length[good].sum()) / 3600.0
 
 
-def _ground(judgement: Judgement, since: float) -> float:
-    """s, of the first row from *since* on at the angle of impact, before the body stands again."""
+def _seen(judgement: Judgement, event: TipEvent) -> Alarm:
+    """The alarm *event* by the attitude judged alone. Where that was unknown before the ground, nobody saw when it was:
+    the first row that is known again may be long after."""
+    ground, end = _ground(judgement, event.time)
+    unknown = judgement.state == TipState.UNKNOWN
+    unseen = unknown & (judgement.time >= event.time) & (judgement.time < (ground if isfinite(ground) else end))
+    if unseen.any():
+        first = float(judgement.time[unseen][0])
+        return Alarm(
+            event, nan, None, first - event.time, _why(judgement, event.time, float(judgement.time[unseen][-1]))
+        )
+    before = judgement.events[: judgement.events.index(event)]
+    if event.before is TipState.UNKNOWN and before and before[-1].before in _DOWN:  # it was falling when it was lost
+        return Alarm(event, nan, None, nan, _why(judgement, before[-1].time, event.time))
+    return Alarm(event, ground, None)
+
+
+def _why(judgement: Judgement, start: float, end: float) -> str:
+    """Why the attitude was unknown in some of these seconds."""
+    flags = int(np.bitwise_or.reduce(judgement.flags[(judgement.time >= start) & (judgement.time <= end)]))
+    if flags & Flag.GYR_CLIPPED:  # what follows from it is no news
+        return SENTENCES[Flag.GYR_CLIPPED]
+    return why_invalid(flags) or "the stamps stood still, or were missing"
+
+
+def _ground(judgement: Judgement, since: float) -> tuple[float, float]:
+    """s, of the first row from *since* on at the angle of impact (NaN for none), before the body stands again, and when
+    that is."""
     after = judgement.time >= since
     stands = after & ~np.isin(judgement.state, [int(state) for state in (*_DOWN, TipState.UNKNOWN)])
-    end = judgement.time[stands][0] if stands.any() else np.inf
+    end = float(judgement.time[stands][0]) if stands.any() else inf
     hits = after & (judgement.time < end) & (judgement.lean >= judgement.tipover.impact - 1e-9)
-    return float(judgement.time[hits][0]) if hits.any() else nan
+    return (float(judgement.time[hits][0]) if hits.any() else nan), end

@@ -22,7 +22,7 @@ from poise.math.memory import Memory
 from poise.math.quaternions import Quat
 from poise.math.vectors import ABSENT, Vec3
 from poise.monitor.parameters import checked, vertical_in_body
-from poise.monitor.tip_over import DIRECTIONS, TipOver
+from poise.monitor.tip_over import CLOCK_STANDS, DIRECTIONS, TipOver
 
 Floats = NDArray[np.float64]
 
@@ -90,6 +90,8 @@ class Judgement:
     """(n, 4) rad, the lean forward, back, left and right"""
     events: list[TipEvent]
     tipover: TipOver
+    flags: NDArray[np.uint32]
+    """(n,) of the attitude that was judged"""
 
     def __len__(self) -> int:
         return len(self.time)
@@ -129,7 +131,7 @@ def judge(
     lean[~np.isfinite(said[:, TILT])] = nan
     return Judgement(
         time, codes[:, 0], said[:, TILT], said[:, LEAN], said[:, RATE], said[:, LIMIT] - said[:, LEAN],
-        said[:, IMPACT], lean, events, ready,
+        said[:, IMPACT], lean, events, ready, attitude.flags,
     )  # fmt: skip
 
 
@@ -269,6 +271,8 @@ def _events(
             )
         elif state in (TipState.UPRIGHT, TipState.RIGHTED):
             reason = f"stands{' again' * (state is TipState.RIGHTED)}, {degrees(tilt):.1f}° from upright"
+        elif state is TipState.UNKNOWN and int(codes[i, 1]) == CLOCK_STANDS:
+            reason = "its clock stands still"
         else:
             reason = _OTHERS[state]
         events.append(TipEvent(float(time[i]), state, before, way, tilt, rate, impact, reason))

@@ -20,6 +20,7 @@ from poise.data.packet import Output
 from poise.math.compiled import compiled
 from poise.math.quaternions import IDENTITY, Quat, inner, rotate, up_in_body
 from poise.math.vectors import ABSENT, ZERO, Vec3, cross, norm, present
+from poise.monitor.going import UNSTARTED, Clock, gone_on, stands
 from poise.monitor.sides import (
     NEVER,
     NO_EDGES,
@@ -39,6 +40,7 @@ UNKNOWN, UPRIGHT, LEANING, TIPPING = map(int, (TipState.UNKNOWN, TipState.UPRIGH
 FALLEN, FREE_FALL = int(TipState.FALLEN), int(TipState.FREE_FALL)
 PICKED_UP, RIGHTED = int(TipState.PICKED_UP), int(TipState.RIGHTED)
 FORWARD, BACK, LEFT, RIGHT = 1, 2, 3, 4
+CLOCK_STANDS = 5  # in the place of a direction: why the state is unknown
 DIRECTIONS = ("", "forward", "back", "left", "right")
 
 _LEAK = 2.0  # a condition is forgotten twice as fast as it gathers: one good sample in a fall costs little
@@ -91,10 +93,12 @@ class State(NamedTuple):
     weightless: Held  # needs no attitude
     vertical: Vertical
     seen: Seen
+    clock: Clock
 
 
 NOTHING = Conditions(NEW, NEW, NEW, NEW, NEW, NEW, NEW, NEW)
 UNSEEN = Seen(False, False, False, False, False, False, nan, Lean(nan, nan), nan, nan, 0)
+TIMELESS = UNSEEN._replace(direction=CLOCK_STANDS)
 
 
 class Verdict(NamedTuple):
@@ -113,7 +117,7 @@ class Verdict(NamedTuple):
     time_to_impact: float
     """s; NaN where it does not lean or does not get there"""
     direction: int
-    """0 for none, else 1 to 4: forward, back, left, right"""
+    """0 for none, else 1 to 4: forward, back, left, right; 5: unknown, since the clock stands still"""
 
 
 class TipOver(NamedTuple):
@@ -151,25 +155,28 @@ class TipOver(NamedTuple):
 
     def start(self) -> State:
         """Before any sample: unknown."""
-        return State(UNKNOWN, UNKNOWN, 0.0, NOTHING, NEW, GROUND, UNSEEN)
+        return State(UNKNOWN, UNKNOWN, 0.0, NOTHING, NEW, GROUND, UNSEEN, UNSTARTED)
 
     def step(self, old: State, out: Output, acc: Vec3) -> State:
         dt = out.dt if out.dt > 0.0 and isfinite(out.dt) else 0.0
+        clock = gone_on(old.clock, dt)
+        timeless = stands(clock)
         square = inner(out.attitude, out.attitude)
-        valid = out.flags & INVALID == 0 and 0.9 < square < 1.1  # NaN is not between the two
+        valid = out.flags & INVALID == 0 and not timeless and 0.9 < square < 1.1  # NaN is not between the two
         vertical_now = up_in_body(out.attitude) if valid else ABSENT
         vertical = moved(old.vertical, acc, vertical_now, norm(out.rate), out.flags, dt, self.gravity)
         light = vertical.force < self.free_fall * self.gravity
         weightless = _held(old.weightless, light, dt, _fall_time(self, old), self.samples)
         if not valid:
             since = old.since + dt if old.now == UNKNOWN else 0.0
-            return State(UNKNOWN, old.known, since, NOTHING, weightless, vertical, UNSEEN)
+            unseen = TIMELESS if timeless else UNSEEN
+            return State(UNKNOWN, old.known, since, NOTHING, weightless, vertical, unseen, clock)
         rate = rotate(self.mount, out.rate)
         seen = _seen(self, rotate(self.mount, vertical_now), rate)
         held = _conditions(self, old, seen, vertical, norm(rate), dt)
         now = _next(self, old, held, weightless, dt)
         since = old.since + dt if now == old.now else 0.0
-        return State(now, old.known if now == UNKNOWN else now, since, held, weightless, vertical, seen)
+        return State(now, old.known if now == UNKNOWN else now, since, held, weightless, vertical, seen, clock)
 
     def output(self, state: State) -> Verdict:
         seen = state.seen

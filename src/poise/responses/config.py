@@ -19,7 +19,7 @@ from poise.responses.log import Log
 from poise.responses.mqtt import Mqtt
 from poise.responses.relay import Relay
 from poise.responses.responder import Responder
-from poise.responses.staging import Stage, Unknown
+from poise.responses.staging import START, Stage, Unknown
 from poise.responses.voice import Voice
 from poise.responses.webhook import Webhook
 
@@ -125,7 +125,7 @@ def _stages(tables: Any, responders: Mapping[str, Responder]) -> tuple[Stage, ..
     stages: list[Stage] = []
     for number, table in enumerate(tables, 1):
         stage = _stage(f"stages, number {number}", table, responders)
-        if stage.name in ["unknown", *(other.name for other in stages)]:
+        if stage.name in ["unknown", START, *(other.name for other in stages)]:
             raise ResponseError(
                 f"stages, number {number}.name: {stage.name!r} is the name of another; give each its own"
             )

@@ -21,8 +21,9 @@ _TEST = 0.2  # s
 class Relay(Responder):
     """Cuts the power when fired; gives it back when released, and not before.
 
-    *active_high* is the level that cuts: True for high. *fail_safe* is what the pin is told when the program ends. From
-    then on it is an input, so that wiring and pull resistor decide: wire it so that a pin that is not driven cuts.
+    *active_high* is the level that cuts: True for high. *fail_safe* is what the pin is told when the program ends, and so
+    what it begins with: a program that starts anew moves nothing. From the end on the pin is an input, so that wiring and
+    pull resistor decide: wire it so that a pin that is not driven cuts.
     """
 
     pin: int | str
@@ -45,6 +46,10 @@ class Relay(Responder):
         """Is the power cut? Known from the pin, once it is open."""
         return bool(self._device.value)
 
+    @property
+    def fired_at_start(self) -> bool:
+        return self.fail_safe == "cut"
+
     def check(self) -> str:
         factory = self._factory()
         for _header, info in factory.board_info.find_pin(self.pin):
@@ -64,7 +69,9 @@ class Relay(Responder):
         from gpiozero.exc import GPIOZeroError
 
         try:
-            self._device: Any = DigitalOutputDevice(self.pin, active_high=self.active_high, initial_value=False)
+            self._device: Any = DigitalOutputDevice(
+                self.pin, active_high=self.active_high, initial_value=self.fired_at_start
+            )
         except (GPIOZeroError, OSError) as problem:
             raise ResponseError(
                 f"{self.name}.pin: {self.pin} cannot be used: {problem}; end what uses it, or take another pin"
@@ -75,7 +82,7 @@ class Relay(Responder):
             self._drive(alarm.kind == "fired")
             return
         before = bool(self._device.value)
-        self._drive(True)
+        self._drive(not before)
         time.sleep(_TEST)
         self._drive(before)
 

@@ -45,6 +45,11 @@ class Responder(ABC):
     def check(self) -> str:
         """What it found of all that it needs, in a few words; moves nothing, tells nobody."""
 
+    @property
+    def fired_at_start(self) -> bool:
+        """It is as if fired from :meth:`open` on, until it is released."""
+        return False
+
     def open(self, trouble: Trouble) -> None:  # noqa: B027
         """Get ready to fire. *trouble* is called with what broke in between, with None when it works again."""
 

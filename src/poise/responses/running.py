@@ -20,7 +20,7 @@ from poise.responses.alarm import Alarm, Failure, Kind, no_event, now_utc
 from poise.responses.config import Config, load_config
 from poise.responses.lanes import Job, Lane
 from poise.responses.log import LOGGER
-from poise.responses.staging import Staging, Step
+from poise.responses.staging import START, Staging, Step
 
 _TICK = 0.05  # s, how late a repetition, or the news that a responder hangs, may be
 _CLOSING = 5.0  # s that what is being told may take at the end
@@ -39,11 +39,13 @@ class Responses:
         self.config = config
         reporters = tuple(r.name for r in config.responders if "failure" in r.answers and r.kind != "log")
         logs = tuple(r.name for r in config.responders if r.kind == "log")
+        tipping = config.unknown == "as tipping"  # then what is not known at the start is cut, too
         self._staging = Staging(
             stages=config.stages,
             unknown=config.unknown,
             unknown_after=config.unknown_after,
             warned=(*reporters, *logs),
+            at_start=tuple(r.name for r in config.responders if r.fired_at_start or (tipping and r.immediate)),
         )
         self._clock, self._lock, self._order = clock, threading.RLock(), threading.Lock()
         self._lanes = {each.name: Lane(each, self._done, self._back) for each in config.responders}
@@ -74,9 +76,21 @@ class Responses:
         for lane in self._lanes.values():
             lane.start()
         self._open = True
+        self._begin()
         self._supervisor.start()
         self._log(self._alarm("started", no_event()))
         return self
+
+    def _begin(self) -> None:
+        """From here on the state is unknown: what is cut then is cut, and stays so until the body is first upright."""
+        with self._lock:
+            self._staging.begin(self._clock())
+            alarm, at_start = self._alarm("fired", no_event(), stage=START), self._staging.at_start
+            for name in (*at_start, *(self._logs if at_start else ())):
+                self._holds[name].add(START)
+        for name in at_start:
+            if not self._lanes[name].responder.fired_at_start:
+                self._submit(name, Job(alarm, tried=frozenset([name])))
 
     def close(self) -> None:
         """Tell what is still to be told, for a few seconds at most; relays go to their ``fail_safe`` level."""

@@ -11,6 +11,10 @@ from poise.data.event import TipEvent, TipState
 Unknown = Literal["ignore", "warn", "as tipping"]
 _CALM = frozenset([TipState.UPRIGHT, TipState.RIGHTED])
 _NOTHING = TipEvent(math.nan, TipState.UNKNOWN, TipState.UNKNOWN)
+_NOT_YET = TipEvent(math.nan, TipState.UNKNOWN, TipState.UNKNOWN, reason="no attitude since the start")
+_PATIENCE = 3.0  # s that the first attitude is waited for: a method is loaded in half of that
+START = "start"
+"""the stage of what holds from the start on"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,6 +60,7 @@ class Staging:
 
     A state fires its stages when it comes, each time. A stage that is not latched ends when the body is upright: neither
     another dangerous state nor ``UNKNOWN`` ends it. A latched one ends when it has been acknowledged *and* the body stands.
+    From :meth:`begin` on the state is unknown, until the first event.
     """
 
     stages: tuple[Stage, ...]
@@ -63,6 +68,8 @@ class Staging:
     unknown_after: float = 0.0
     warned: tuple[str, ...] = ()
     """who is told of an unknown attitude where the policy is ``warn``"""
+    at_start: tuple[str, ...] = ()
+    """who has fired from the start on, until the body is first upright"""
     state: TipState | None = None
     event: TipEvent = _NOTHING
     _memories: list[_Memory] = field(default_factory=list)
@@ -71,7 +78,17 @@ class Staging:
         if self.unknown == "warn" and self.warned:
             warning = Stage(name="unknown", states=frozenset([TipState.UNKNOWN]), fire=self.warned, latched=False)
             self.stages = (*self.stages, warning)
+        if self.at_start:
+            self.stages = (*self.stages, Stage(name=START, states=frozenset(), fire=self.at_start, latched=False))
         self._memories = [_Memory(_NOTHING) for _ in self.stages]
+
+    def begin(self, now: float) -> None:
+        """Nothing is known yet. That nothing comes at all is told after 3 s, for an attitude takes a moment."""
+        for stage, memory in zip(self.stages, self._memories, strict=True):
+            if self._belongs(stage, TipState.UNKNOWN):
+                memory.inside, memory.since, memory.event = True, now, _NOT_YET
+                memory.first = now + max(stage.after + self.unknown_after, _PATIENCE)
+            memory.active = stage.name == START
 
     def handle(self, event: TipEvent, now: float) -> list[Step]:
         """What *event* makes due; nothing where the state is the one that held."""
@@ -132,14 +149,19 @@ class Staging:
         if not memory.active or not self._over(stage, memory):
             return []
         memory.active, memory.again = False, math.inf
-        calm = stage.states <= _CALM  # good news needs no all-clear
-        return [] if calm else [Step("released", stage, self.event, memory.count)]
+        return (
+            [] if _calm(stage) else [Step("released", stage, self.event, memory.count)]
+        )  # good news needs no all-clear
 
     def _over(self, stage: Stage, memory: _Memory) -> bool:
         if memory.inside:
             return False
-        if stage.states <= _CALM or stage.states == {TipState.UNKNOWN}:
+        if _calm(stage) or stage.states == {TipState.UNKNOWN}:
             return True
         if memory.acknowledged:
             return self.state in _CALM
         return not stage.latched and self.state == TipState.UPRIGHT
+
+
+def _calm(stage: Stage) -> bool:
+    return bool(stage.states) and stage.states <= _CALM
