@@ -17,6 +17,7 @@ instant       the attitude given out some milliseconds later or earlier
 tried         the rate by trapezoids; windows of the way back; the length of a block
 iron          a magnetometer that was never calibrated: hard iron from the start
 dock          a start beside a magnet or steel, which then goes
+accelerometer one that has gravity's length wrong, and one with a bias
 made          made recordings of an inexpensive sensor, and of one with white noise only
 """
 
@@ -26,6 +27,7 @@ import re
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from math import inf
 from typing import Any
 
@@ -118,6 +120,10 @@ def without(trials: Trials) -> Iterator[Table]:
         "A": {"initial_scale": 0.0},
         "A, k 3 times larger": {"initial_scale": 0.0, "scale_noise": 3.0 * FLAGSHIP.scale_noise},
         "the bias's walk in motion": {"bias_walk": FLAGSHIP.bias_walk_rest},
+        "the accelerometer's bias": {"initial_acc_bias": 0.0, "acc_bias_walk": 0.0},
+        "the accelerometer's scale": {"initial_acc_scale": 0.0},
+        "either": {"initial_acc_bias": 0.0, "acc_bias_walk": 0.0, "initial_acc_scale": 0.0},
+        "noise by shocks": {"shock_noise": 0.0},
         "hard iron": {"initial_iron": 0.0, "iron_walk": 0.0},
         "hard iron's walk, but 1 % at the start": {"initial_iron": 0.01, "iron_walk": 0.0},
         "noise by specific force": {"motion_noise": 0.0},
@@ -293,6 +299,22 @@ def magnet(trials: Trials) -> Iterator[Table]:
         "a magnet on body x, y or z from the middle on, undisturbed trials: RMSE after it, degrees, and largest total"
     )
     yield title, ["", *RUNS], rows
+
+
+def accelerometer(trials: Trials) -> Iterator[Table]:
+    """Real accelerometers made worse, on the undisturbed trials that turn."""
+    names = [name for name in trials if "undisturbed" in name and "translation" not in name]
+    worse: dict[str, Callable[[Floats], Floats]] = {
+        "as it is": lambda acc: acc,
+        **{f"times {factor:g}": partial(np.multiply, factor) for factor in (0.95, 0.97, 1.03, 1.05)},
+        **{f"bias of {bias:g} m/s²": partial(np.add, bias * np.array([1.0, -1.0, 0.5])) for bias in (0.05, 0.1, 0.2)},
+    }
+    rows: list[list[Cell]] = []
+    for case, of in worse.items():
+        spoiled = {name: replace(trials[name], acc=of(trials[name].acc)) for name in names}
+        found = {name: np.array(list(errors(run, spoiled).values())) for name, run in RUNS.items()}
+        rows.append([case, *(f"{slashed(e.mean(axis=0), 2)}, {e[:, 0].max():.1f}" for e in found.values())])
+    yield "accelerometers made worse, undisturbed trials that turn: RMSE, degrees, and largest total", ["", *RUNS], rows
 
 
 def settled(attitude: poise.Attitude, other: poise.Attitude, recording: Recording) -> float:
@@ -474,8 +496,8 @@ def made(trials: Trials) -> Iterator[Table]:
 
 SECTIONS: dict[str, Callable[[Trials], Iterator[Table]]] = {
     "trials": per_trial, "without": without, "sensitivity": sensitivity, "late": late, "rates": rates, "six": six,
-    "sigma": sigma, "start": start, "lying": lying, "magnet": magnet, "iron": iron, "dock": dock, "field": field,
-    "instant": instant, "tried": tried, "made": made,
+    "sigma": sigma, "start": start, "lying": lying, "magnet": magnet, "iron": iron, "dock": dock,
+    "accelerometer": accelerometer, "field": field, "instant": instant, "tried": tried, "made": made,
 }  # fmt: skip
 
 if __name__ == "__main__":

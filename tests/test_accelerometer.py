@@ -96,7 +96,7 @@ def test_a_scale_of_five_per_cent_costs_nothing_on_real_trials(number: str) -> N
 
 
 def test_taps_do_not_pass_for_a_bias() -> None:
-    """Shocks between two samples leave velocities that no sample has: on trial 25 they would make a bias of 0.1 m/s²."""
+    """Shocks between two samples leave velocities that no sample has, and the way back would make a bias of them."""
     tapped = trial("25")
     smoothed, believing = poise.smooth(tapped), poise.smooth(tapped, FLAGSHIP._replace(shock_noise=0.0))
     assert inclination(smoothed, tapped) < 0.35 < inclination(believing, tapped)

@@ -397,6 +397,8 @@ def test_only_the_flagship_goes_back() -> None:
         poise.smooth(made(), poise.TwoStage())  # type: ignore[arg-type]
     with pytest.raises(MethodError, match="window and overlap"):
         poise.smooth(made(), window=0.0)
+    with pytest.raises(MethodError, match="window and overlap: expected seconds"):
+        poise.smooth(made(), overlap="a minute")  # type: ignore[arg-type]
 
 
 # -- the way back, beside a textbook's ----------------------------------------------------------------------------------

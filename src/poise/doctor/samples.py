@@ -178,7 +178,7 @@ def _length_at_rest(level: Floats, gravity: float) -> list[Finding]:
         f"at rest the specific force is {usual:.3f} m/s² long, {abs(off):.1%} {'more' if off > 0 else 'less'} than gravity "
         f"({gravity:.3f})"
     )
-    option = f"--set gravity={usual:.4g}, which self-calibrating, two-stage, adaptive-gain and gated take"
+    option = f"self-calibrating learns that; two-stage, adaptive-gain and gated take --set gravity={usual:.4g}"
     if apart < _APART:
         text += f"; it rests one way up only, so its scale is off, or its offset: if the scale, {option}"
     elif spread < abs(off) * gravity / 2:

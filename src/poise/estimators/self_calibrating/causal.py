@@ -111,8 +111,8 @@ class SelfCalibrating(NamedTuple):
     local_field: Annotated[float, "rad", "how far magnetic north here may be from that of the region", (0.0, pi)] = (
         radians(1.5)
     )
-    level_error: Annotated[float, "rad", "how far the accelerometer's own up is off: its bias", (0.0, pi)] = radians(
-        0.25
+    level_error: Annotated[float, "rad", "how far the accelerometer's own up is off, beside its bias", (0.0, pi)] = (
+        radians(0.25)
     )
     time_error: Annotated[float, "s", "how far the attitude's instant is off: delays in the gyroscope", (0.0, 1.0)] = (
         0.002

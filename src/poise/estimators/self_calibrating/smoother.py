@@ -61,7 +61,7 @@ def smooth(
     method = SelfCalibrating() if method is None else method
     if not isinstance(method, SelfCalibrating):
         raise MethodError(f"only SelfCalibrating can be smoothed, found {type(method).__name__}")
-    if not (window > 0.0 and overlap >= 0.0):
+    if not (isinstance(window, (int, float)) and isinstance(overlap, (int, float)) and window > 0.0 and overlap >= 0.0):
         raise MethodError(f"window and overlap: expected seconds, found {window!r} and {overlap!r}")
     method = at_gravity(method, recording.gravity)._replace(log=0)
     stream = partial(_Stream, method._replace(log=_PART + 2), start, bias=bias, guard=guard, start_from=start_from)
