@@ -14,7 +14,7 @@ from poise.doctor import axes, exchange, gravity, offsets, rate_units, samples, 
 from poise.doctor.axes import Hemisphere
 from poise.doctor.findings import RANK, Diagnosis, Evidence, Finding
 from poise.doctor.rate_units import Context
-from poise.doctor.rates import Lengths, Rates, explain, judge, with_factor, with_other_clocks
+from poise.doctor.rates import Lengths, Rates, by_every_clock, explain, judge, with_factor, with_other_clocks
 from poise.errors import RecordingError
 from poise.estimators.guard import unpacked
 from poise.formats.units import SI
@@ -119,6 +119,7 @@ def _of_units_and_axes(
         blocks, judged = clocked
     else:
         judged = judge(blocks, as_is, lengths, clock.others, guessed="gyr" in guessed or clock.counts)
+        judged = by_every_clock(judged, others, as_is, lengths)
     told = rate_units.findings(judged, Context(alive, blocks, clock, read_as, guessed, length))
     tried = judged.rates
     if judged.unit is not None and judged.unit.time in others:

@@ -138,7 +138,8 @@ def judge(
         other = _between(found, as_is, lengths, units) if guessed or clocks else None
         return Judged(None, other or as_is, factor=other.factor if other else None, open=open_)
     beside = _BESIDE if best == _USUAL else np.append(_BESIDE, _OFF)
-    if (other := _beside(found, chosen, lengths, chosen.factor * beside)) is not None:
+    other = _beside(found, chosen, lengths, chosen.factor * beside)
+    if other is not None and not (best == _USUAL and _near(other, units)):
         return Judged(None, other, misfit(as_is), apart, other.factor)
     if any(unit.time != units[best].time and unit.gyr != units[best].gyr for unit in open_ if unit.gyr in USUAL):
         return Judged(None, as_is, misfit(as_is), apart, open=open_)
@@ -161,12 +162,31 @@ def with_other_clocks(
     return fits[0] if len(fits) == 1 and fits[0][0] is not found else None
 
 
+def by_every_clock(judged: Judged, others: Mapping[float, Blocks], as_is: Rates, lengths: Lengths) -> Judged:
+    """*judged*, or a choice where it is only that rates claim too much, and with another clock's blocks they do not."""
+    unit = judged.unit
+    if unit is None or explain(judged.rates):
+        return judged
+    apart = [time for time, blocks in others.items() if _alone(blocks, lengths) != unit.gyr]
+    open_ = (unit, *(Unit(gyr, time) for time in apart for gyr in USUAL))
+    return Judged(None, as_is, judged.before, judged.apart, open=open_) if apart else judged
+
+
+def _alone(found: Blocks, lengths: Lengths) -> float | None:
+    """The factor of the gyroscope's unit by *found* alone; None where it cannot be told."""
+    judged = judge(found, with_factor(found, 1.0, lengths), lengths)
+    return judged.unit.gyr if judged.unit else None
+
+
 def _between(found: Blocks, as_is: Rates, lengths: Lengths, units: Iterable[Unit]) -> Rates | None:
     """The rates times a factor that explains the turning and is far from that of every one of *units*; None without any."""
     factors = np.concatenate([_BETWEEN, *(fitted * _NEAR for fitted in _fitted(found))])
     other = _beside(found, as_is, lengths, factors)
-    near = other is not None and any(1.0 / _APART < other.factor / unit.turn < _APART for unit in units)
-    return None if near else other
+    return None if other is None or _near(other, units) else other
+
+
+def _near(other: Rates, units: Iterable[Unit]) -> bool:
+    return any(1.0 / _APART < other.factor / unit.turn < _APART for unit in units)
 
 
 def _beside(found: Blocks, chosen: Rates, lengths: Lengths, factors: Iterable[float]) -> Rates | None:
