@@ -243,8 +243,7 @@ class Hub:
         return batch
 
     def _taken(self, wall: float) -> tuple[list[Device], list[float], Batch | None]:
-        """The devices whose samples are to be run, since when those waited, and the samples; *wall*: from the monotonic
-        clock to the calendar's."""
+        """The devices whose samples are to be run, since when they waited, and these; *wall*: see :class:`Batch`."""
         waiting = [device for device in self._waiting if device.runs]
         ready, arrived, parts, spans, row, out = [], [], [], [], 0, 0
         for device in waiting:
