@@ -334,7 +334,7 @@ def walked(stamps: Floats, arrivals: Floats) -> NDArray[np.bool_]:
     """Whether it stands after each of *stamps*, which arrive one by one."""
     clock, found = Standstill(), []
     for stamp, arrived in zip(stamps, arrivals, strict=True):
-        clock.see(np.array([stamp]), float(arrived))
+        clock.see(np.array([stamp]), float(stamp), float(arrived))
         found.append(clock.standing)
     return np.array(found)
 

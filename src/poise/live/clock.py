@@ -137,9 +137,12 @@ class Standstill:
         self._moved = nan  # s of the host
         self._usual = 0.0  # s between moves
 
-    def see(self, stamps: Floats, host: float) -> None:
-        """Samples with these *stamps*, one or more, have arrived at *host* (s)."""
-        if self._moves(stamps):
+    def see(self, stamps: Floats, last: float, host: float) -> None:
+        """Samples with these *stamps*, the *last* of them once more, have arrived at *host* (s)."""
+        moves = self.stamp < last < inf  # nearly always
+        if moves:
+            self.stamp = last
+        if moves or self._moves(stamps):
             if isfinite(self._moved):
                 lasted = host - self._moved
                 self._usual += 0.5 * (min(lasted, 4.0 * self._usual) - self._usual) if self._usual else lasted
@@ -151,10 +154,6 @@ class Standstill:
             self._moved = host  # no stamp was a number yet
 
     def _moves(self, stamps: Floats) -> bool:
-        last = float(stamps[-1])
-        if self.stamp < last < inf:  # nearly always
-            self.stamp = last
-            return True
         known = np.concatenate([[self.stamp], stamps])
         known = known[np.isfinite(known)]
         first = not isfinite(self.stamp)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Iterable
 from math import inf
 from typing import Any, NamedTuple
 
@@ -142,7 +141,9 @@ class Device:
     def receive_frame(self, frame: bytes, now: float) -> int:
         """Takes a frame of samples; how many of them are new. Raises :class:`FrameError` for one that is malformed."""
         head = frames.head(frame)
-        self._check(frames.stamps(frame, head.size))
+        if self.failed:
+            self._refuse()
+        frames.check_stamps_in(frame, head.size)
         skip = self._number(head.sequence, head.samples)
         if skip >= head.samples:
             return 0
@@ -155,17 +156,16 @@ class Device:
 
     def receive(self, rows: Floats, now: float, sequence: int = frames.UNNUMBERED) -> int:
         """Takes (n, 12) samples, n ≥ 1, the first numbered *sequence*; how many of them are new. Raises as above."""
-        self._check(rows[:, 0].tolist())
+        if self.failed:
+            self._refuse()
+        frames.check_stamps(rows[:, 0].tolist())
         skip = self._number(sequence, len(rows))
         if skip < len(rows):
             self._add(rows[skip:], now)
         return max(0, len(rows) - skip)
 
-    def _check(self, stamps: Iterable[float]) -> None:
-        """Before anything is counted, what cannot be taken is refused."""
-        if self.failed:
-            raise DeviceError(f"{self.name} is not run any more, until its methods are chosen anew: {self.failed}")
-        frames.check_stamps(stamps)
+    def _refuse(self) -> None:
+        raise DeviceError(f"{self.name} is not run any more, until its methods are chosen anew: {self.failed}")
 
     def fail(self, why: str) -> None:
         """Its run has ended by a fault: what waits is given up, and nothing more is taken."""

@@ -104,9 +104,11 @@ def check_stamps(stamps: Iterable[float]) -> None:
             raise FrameError(f"time: expected seconds, at most {FARTHEST:g} from zero, found {stamp:g}")
 
 
-def stamps(frame: bytes, size: int) -> Iterable[float]:
-    """The stamps of a frame whose samples have *size* bytes, without an array: most frames hold one."""
-    return (stamp for (stamp,) in _STAMPS[size].iter_unpack(memoryview(frame)[HEADER.size :]))
+def check_stamps_in(frame: bytes, size: int) -> None:
+    """The same of a frame whose samples have *size* bytes; without an array, since it is done for each that comes."""
+    for (stamp,) in _STAMPS[size].iter_unpack(memoryview(frame)[HEADER.size :]):
+        if not -FARTHEST <= stamp <= FARTHEST:
+            check_stamps((stamp,))
 
 
 def samples(frame: bytes) -> Floats:

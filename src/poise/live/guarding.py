@@ -48,6 +48,8 @@ class Guarding:
         watch = self._hub.watch
         for span in batch.spans:
             device = span.device
+            if device.failed:
+                continue
             try:
                 if device.standstill.standing:
                     batch.flags[span.out] |= np.uint32(SILENT)
@@ -75,12 +77,11 @@ class Guarding:
             self._hub.event("tip", device, as_text(device.name, event), **as_facts(event))
             watch.handle(device.name, event)
 
-    def clock(self, device: Device, before: bool) -> None:
-        """Tells when the clock of *device* stands still, and when it goes on; *before*: whether it stood."""
+    def tell_clock(self, device: Device) -> None:
+        """The clock of *device* stands still by now, or goes on."""
         standing = device.standstill.standing
-        if standing != before:
-            text = "its clock stands still: its attitude is unknown" if standing else "its clock goes on"
-            self._hub.event("clock", device, f"{device.name}: {text}")
+        text = "its clock stands still: its attitude is unknown" if standing else "its clock goes on"
+        self._hub.event("clock", device, f"{device.name}: {text}")
 
     # -- silence --------------------------------------------------------------------------------------------------
 
@@ -102,8 +103,10 @@ class Guarding:
         least = max(_BUSY - period, _READING) if late else 0.0
         for device in self._hub.devices.values():
             health = device.health
-            known = device.runs and health.samples and not health.silent and not device.failed
-            if known and now - health.heard > max(health.silence, least):
+            since = now - health.heard
+            if since <= health.silence or since <= least or health.silent:  # nearly always
+                continue
+            if device.runs and health.samples and not device.failed:
                 try:
                     self._silent(device, now)
                 except Exception as problem:

@@ -228,10 +228,8 @@ class Hub:
                     span.run.stream.update_rows(batch.rows[span.rows], batch.table[span.out], batch.flags[span.out])
                 except Exception as problem:
                     self.guarding.fail(span.device, problem)
-        batch = batch.sound()
-        if batch.spans:
-            self.guarding.judge(batch)
-            batch = self._put(batch.sound())
+        self.guarding.judge(batch)
+        batch = self._put(batch.sound())
         if not batch.spans:
             return None
         self._note(batch, now, late)
@@ -245,8 +243,7 @@ class Hub:
         return batch
 
     def _taken(self, wall: float) -> tuple[list[Device], list[float], Batch | None]:
-        """The devices whose samples are to be run, since when those waited, and the samples; *wall*: from the monotonic
-        clock to the calendar's."""
+        """The devices whose samples are to be run, since when they waited, and these; *wall*: see :class:`Batch`."""
         waiting = [device for device in self._waiting if device.runs]
         ready, arrived, parts, spans, row, out = [], [], [], [], 0, 0
         for device in waiting:
@@ -254,9 +251,11 @@ class Hub:
         for device in waiting:
             try:
                 taken, stood = device.take(), device.standstill.standing
-                device.clock.update(float(taken.rows[-1, 0]), taken.arrived)
-                device.standstill.see(taken.rows[:, 0], taken.arrived)
-                self.guarding.clock(device, stood)
+                last = float(taken.rows[-1, 0])
+                device.clock.update(last, taken.arrived)
+                device.standstill.see(taken.rows[:, 0], last, taken.arrived)
+                if device.standstill.standing != stood:
+                    self.guarding.tell_clock(device)
             except Exception as problem:
                 self.guarding.fail(device, problem)
                 continue
@@ -284,7 +283,8 @@ class Hub:
                     self.newest.put(batch.of(lambda each, device=device: each is device))  # type: ignore[misc]
                 except Exception as problem:
                     self.guarding.fail(device, problem)
-        return batch.sound()
+            return batch.sound()
+        return batch
 
     def _note(self, batch: Batch, now: float, late: bool) -> None:
         """What each device's health is told of the tick."""
