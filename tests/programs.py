@@ -141,3 +141,14 @@ def hook() -> Iterator[Hook]:
             yield server
         finally:
             server.shutdown()
+
+
+def mock_board(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
+    """The pins of a board that is not there."""
+    gpiozero = pytest.importorskip("gpiozero")
+    from gpiozero.pins.mock import MockFactory
+
+    factory = MockFactory()
+    monkeypatch.setattr(gpiozero.Device, "pin_factory", factory)
+    yield factory
+    factory.reset()

@@ -140,6 +140,18 @@ def test_many_devices_are_several(made: Writer) -> None:
         read(path)
 
 
+def test_an_empty_cell_that_says_nan_is_no_device(made: Writer) -> None:
+    path = made(f"{USUAL},device_id", "NUMBER", rows=200)
+    one = path.read_text()
+    for i in range(200):
+        one = one.replace("NUMBER", ("nan", "1")[i % 2], 1)
+    path.write_text(one)
+    assert len(read(path)) == 200
+    path.write_text(one.replace(",1\n", ",2\n", 1))
+    with pytest.raises(FormatError, match="names more than one device"):
+        read(path)
+
+
 def test_several_devices_in_parquet_and_npz(tmp_path: Path) -> None:
     from pyarrow import csv, parquet
 

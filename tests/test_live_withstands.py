@@ -32,6 +32,7 @@ from poise.live.session import Session
 from poise.live.udp import Udp
 from poise.live.watching import Watch
 from poise.responses import Responses, config_of
+from programs import mock_board
 
 Floats = NDArray[np.float64]
 ALL, READ = "all-the-scopes-of-it", "may-only-read-of-it"
@@ -213,6 +214,16 @@ def test_whatever_raises_for_one_device_is_its_own(where: str) -> None:
         assert live.hub.find("robot").tip == TipState.UNKNOWN
         send(other, upright(0.5, start=0.6), first=50, size=5)
         wait_for(lambda: number(live, "other") == 99)
+
+
+def test_a_fault_before_any_stamp_is_told_with_one_that_is_a_number() -> None:
+    with serving(watch=Watch()) as live, live.device("robot") as robot:
+        wait_for(lambda: any(device.name == "robot" for device in live.hub.devices.values()))
+        live.call(lambda: setattr(live.hub.find("robot").clock, "update", failing))
+        send(robot, upright(0.1), size=5)
+        wait_for(lambda: told(live, "failed", "robot"))
+        json.dumps(live.hub.happened.all(), allow_nan=False)
+        assert told(live, "tip", "robot")
 
 
 def test_what_came_before_a_fault_is_recorded(tmp_path: Path) -> None:
@@ -399,13 +410,7 @@ def test_silence_is_told_in_time_though_every_tick_is_late(took: float) -> None:
 @pytest.fixture
 def board(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
     """The pins of a mock board."""
-    gpiozero = pytest.importorskip("gpiozero")
-    from gpiozero.pins.mock import MockFactory
-
-    factory = MockFactory()
-    monkeypatch.setattr(gpiozero.Device, "pin_factory", factory)
-    yield factory
-    factory.reset()
+    yield from mock_board(monkeypatch)
 
 
 def guarded(folder: Path, **more: Any) -> Watch:

@@ -20,7 +20,7 @@ from poise.data.event import TipEvent, TipState
 from poise.errors import ResponseError
 from poise.responses import Alarm, Responses, config_of
 from poise.responses.alarm import now_utc
-from programs import broker, free_port, hook, program, subscriber, until
+from programs import broker, free_port, hook, mock_board, program, subscriber, until
 
 TIPPING = TipEvent(12.5, TipState.TIPPING, TipState.LEANING, "forward", 0.6, 1.5, 0.3, "beyond 30°")
 UPRIGHT = TipEvent(20.0, TipState.UPRIGHT, TipState.RIGHTED)
@@ -30,13 +30,7 @@ LOG = {"type": "log", "file": "alarms.jsonl"}
 @pytest.fixture
 def board(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
     """The pins of a mock board."""
-    gpiozero = pytest.importorskip("gpiozero")
-    from gpiozero.pins.mock import MockFactory
-
-    factory = MockFactory()
-    monkeypatch.setattr(gpiozero.Device, "pin_factory", factory)
-    yield factory
-    factory.reset()
+    yield from mock_board(monkeypatch)
 
 
 def levels(board: Any, pin: int) -> list[bool]:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from math import isfinite
 
 from poise.errors import FormatError
 from poise.formats.layouts import Column
 from poise.formats.names import listed
 
 _MOST = 100  # numbers: a column of more counts something
+_EMPTY = {"nan", "NaN", "NAN"}
 
 
 class Devices:
@@ -24,7 +26,7 @@ class Devices:
         seen = self._seen[column]
         if len(seen) <= _MOST:
             seen.update(value for value in values if value)
-        if len(seen) > 1 and not _is_quantity(seen):
+        if len(seen - _EMPTY) > 1 and not _is_quantity(seen):
             raise FormatError(
                 f"{self._where}: column {column.name!r} names more than one device ({listed(sorted(seen), 6)}), and an "
                 f"attitude is of one: split the file by it, or, where it names none, leave it out: --columns {column.name}=-"
@@ -34,7 +36,7 @@ class Devices:
 def _is_quantity(values: Iterable[str]) -> bool:
     """Whether *values* count or measure something: many whole numbers, or one with a fraction."""
     try:
-        numbers = {float(value) for value in values}
+        numbers = {number for value in values if isfinite(number := float(value))}  # an empty cell may say nan
     except ValueError:
         return False
     return len(numbers) > _MOST or any(number % 1.0 for number in numbers)

@@ -116,8 +116,7 @@ class Guarding:
         hub, health = self._hub, device.health
         health.silent = True
         health.silences += 1
-        stamp = device.standstill.stamp
-        then = (stamp if isfinite(stamp) else 0.0) + max(now - health.heard, _AT_LEAST)
+        then = _last_stamp(device) + max(now - health.heard, _AT_LEAST)
         if device.monitor is not None:
             self._tell(device, device.monitor.check(then))
         for run in device.runs:
@@ -137,7 +136,7 @@ class Guarding:
         device.tip = NOT_MONITORED if hub.watch is None else int(TipState.UNKNOWN)
         if hub.watch is not None:
             before = TipState.UNKNOWN if device.monitor is None else device.monitor.state
-            event = TipEvent(device.standstill.stamp, TipState.UNKNOWN, before, reason=f"its run has ended: {why}")
+            event = TipEvent(_last_stamp(device), TipState.UNKNOWN, before, reason=f"its run has ended: {why}")
             device.monitor = None
             hub.event("tip", device, as_text(device.name, event), **as_facts(event))
             try:
@@ -149,3 +148,9 @@ class Guarding:
         hub.joints.silent(device)
         text = f"{device.name}: its run has ended by a fault, its attitude is unknown: {why}"
         hub.event("failed", device, f"{text}; it begins anew once its methods are chosen anew")
+
+
+def _last_stamp(device: Device) -> float:
+    """s, of the last sample whose stamp is a number; 0 where there was none."""
+    stamp = device.standstill.stamp
+    return stamp if isfinite(stamp) else 0.0

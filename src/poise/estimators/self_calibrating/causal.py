@@ -72,6 +72,7 @@ from poise.estimators.self_calibrating.model import (
     sums_of,
     vector,
 )
+from poise.estimators.self_calibrating.sampled import clipped_columns, turned_back
 from poise.estimators.self_calibrating.unproven import ANY, begin_open
 from poise.estimators.self_calibrating.watch import forget_watch, settled
 from poise.math.compiled import compiled
@@ -352,24 +353,3 @@ def unsure_attitude(method: SelfCalibrating, P: Floats) -> None:
     forget(P, TURN, 2, method.initial_tilt**2)
     forget(P, TURN + 2, 1, method.initial_heading**2)
     forget(P, VELOCITY, 3, 1.0)
-
-
-@compiled
-def turned_back(v: Vec3, w: Vec3, delay: float) -> Vec3:
-    """exp(−ω delay) v, to second order: a vector measured *delay* ago, in the body of now."""
-    turn = (-delay) * w
-    once = cross(turn, v)
-    return v + once + 0.5 * cross(turn, once)
-
-
-@compiled
-def clipped_columns(R: Mat3, gyr: Vec3, limit: float) -> Mat3:
-    """The columns of R of the axes whose rate is at the end of the range."""
-    x = 1.0 if abs(gyr.x) > limit else 0.0
-    y = 1.0 if abs(gyr.y) > limit else 0.0
-    z = 1.0 if abs(gyr.z) > limit else 0.0
-    return Mat3(
-        Vec3(x * R.x.x, y * R.x.y, z * R.x.z),
-        Vec3(x * R.y.x, y * R.y.y, z * R.y.z),
-        Vec3(x * R.z.x, y * R.z.y, z * R.z.z),
-    )
