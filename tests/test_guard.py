@@ -19,6 +19,7 @@ from helpers import angle_between, in_packets
 from poise.data.flags import KNOWN, SENTENCES, Flag
 from poise.data.packet import Packet
 from poise.errors import RecordingError
+from poise.estimators.guard.stamps import evened
 from poise.math import arrays
 from poise.simulation import PERFECT, Sensor, at_rest, forearm, measure
 
@@ -150,6 +151,19 @@ def test_stamps_that_scatter_about_an_even_pace_are_followed_slowly(method: Any)
         attitude = poise.estimate(method, changed(time=stamped))
         assert np.degrees(arrays.angle(arrays.multiply(arrays.conjugate(true), attitude.quat)))[300:].max() < 0.5
         assert attitude.valid.all()
+
+
+@pytest.mark.parametrize("kind", ["two fifths of a period", "as late as a busy computer", "0.3, and 2 % lost"])
+def test_stamps_that_scatter_far_are_those_of_an_even_pace(kind: str) -> None:
+    rng, period, true = np.random.default_rng(4), 1.0 / RATE, clean().time
+    kept = rng.random(len(true)) > (0.02 if "lost" in kind else 0.0)
+    even = true[kept]
+    off = rng.exponential(0.2, len(even)) if "late" in kind else rng.uniform(-1.0, 1.0, len(even))
+    scatter = 1.0 if "late" in kind else 0.3 if "lost" in kind else 0.4
+    away = evened(np.maximum.accumulate(even + scatter * period * off)) - even
+    away -= np.median(away)
+    assert np.quantile(abs(away[1000:]), 0.95) < 0.15 * period
+    assert np.quantile(abs(away[100:]), 0.9) < 0.3 * period
 
 
 def test_samples_that_come_unevenly_keep_their_stamps() -> None:

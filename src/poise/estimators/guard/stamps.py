@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import floor, isfinite
+from math import floor, isfinite, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -29,10 +29,13 @@ SHORTEST = 1e-7  # s: a noise density over no time at all would overflow
 _LONGEST = 1e12
 _SHARE = 0.02  # of a new step in the usual one: that of the last 50 rows or so
 _MOST = 0.1  # of the usual step: a longer one counts as that much longer, for a lost row is not a slower sensor
-_FOLLOW = 0.01  # of what a stamp that scatters is off
+_EARLY = 50.0  # rows: until then the usual step is the mean of all
+_BEGUN, _FOLLOWED = 20.0, 400.0  # rows that the line through stamps that scatter is drawn through: from, and at most
 _SCATTER = 4e-4  # (usual step)²: 2 % of it, squared; less is not worth a thought
-_TURNS_BACK = -0.3  # correlation of successive steps. −0.5 where the stamps scatter, and 0 where the samples do
-_FARTHEST = 40.0  # steps
+_TURNS_BACK, _STILL = -0.3, -0.15  # correlation of successive steps. −0.5 where the stamps scatter, and 0 where the samples do; once it is known
+_LONG_STEP, _EARLY_BY = 0.5, 0.5  # more than the usual step: a row was lost, unless the next is early by so much of it
+_LATEST = 0.9  # (usual step): a stamp later than that is the next row's
+_TOO_MANY = 0.05  # (usual step): what a row is taken to last where one was taken for lost that was not
 _OFTEN = 0.005  # of a new row in what is known of the scatter
 _LONG = 5000.0  # rows whose mean step is that of stamps that scatter
 
@@ -45,14 +48,15 @@ class Pace(NamedTuple):
     back: float  # s that the clock was set back; should it come back to its old time, that is no gap
     waiting: int  # rows since the last stamp that rose
     held: int  # rows in a row that no time was given to
-    off: float  # of the last step from the usual one, in usual steps
+    off: float  # of the last step from the usual one, in usual steps; where above 0.5, it is yet to be seen whether a row was lost
     scatter: float  # mean square of that
     turns: float  # mean product with the one before
     rows: float  # that this is known from, counted up to 5000
+    line: float  # rows that a line through stamps that scatter is drawn through, counted up to 400; 0 where they do not
     packets: Packets
 
 
-UNKNOWN = Pace(0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0.0, 0.0, NONE)
+UNKNOWN = Pace(0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, NONE)
 
 
 class Timed(NamedTuple):
@@ -71,6 +75,8 @@ def evenly(pace: Pace, dt: float, gap: float) -> bool:
         and SHORTEST < dt <= gap
         and pace.ahead == 0.0
         and pace.waiting == 0
+        and pace.off <= _LONG_STEP
+        and pace.rows >= _EARLY
         and not pace.packets.long
         and not _scattered(pace)
     )
@@ -84,14 +90,16 @@ def counted_on(pace: Pace, dt: float) -> Pace:
     scatter, turns = pace.scatter, pace.turns
     return Pace(
         step, 0.0, pace.back, 0, 0, off, scatter + _OFTEN * (off * off - scatter),
-        turns + _OFTEN * (off * pace.off - turns), min(pace.rows + 1.0, _LONG), one_by_one(pace.packets, step),
+        turns + _OFTEN * (off * pace.off - turns), min(pace.rows + 1.0, _LONG), 0.0, one_by_one(pace.packets, step),
     )  # fmt: skip
 
 
 @compiled
 def _scattered(pace: Pace) -> bool:
     """Whether the stamps scatter and the samples do not: a stamp that is late makes one step long and the next one short."""
-    return in_packets(pace.packets) or (pace.scatter > _SCATTER and pace.turns < _TURNS_BACK * pace.scatter)
+    back = _STILL if pace.line > 0.0 else _TURNS_BACK
+    known = pace.scatter > _SCATTER and pace.turns < back * pace.scatter and pace.rows >= _EARLY
+    return in_packets(pace.packets) or known
 
 
 @compiled
@@ -123,24 +131,29 @@ def timed(pace: Pace, dt: float, repeated: bool, goes_on: bool, gap: float, long
         return Timed(_without_stamp(pace, dt), usual, JITTER)
     if usual > 0.0 and dt <= most and begins_packet(pace.packets, dt, pace.waiting):
         row = followed(pace.packets, dt, usual, pace.ahead, pace.waiting, pace.rows, most)
-        after = Pace(row.step, row.ahead, kept, 0, 0, 0.0, pace.scatter, pace.turns, row.rows, row.packets)
+        after = Pace(row.step, row.ahead, kept, 0, 0, 0.0, pace.scatter, pace.turns, row.rows, 0.0, row.packets)
         return Timed(after, row.given, 0)
     if dt <= gap and usual > 0.0 and _scattered(pace):
-        rows = max(floor(left / usual + 0.5), 1.0)
-        follow = max(_FOLLOW, min(1.0 / (pace.rows + 1.0) - 1e-3, 1.0))
-        off = min(max(left - rows * usual, -_FARTHEST * usual), _FARTHEST * usual)
-        given = rows * usual + min(max(follow * off, -0.5 * usual), 0.5 * usual)
-        passed = max(floor(dt / usual + 0.5), 1.0)
+        late = min(0.5 + 1.5 * sqrt(0.5 * pace.scatter), _LATEST)  # beside 1.5 σ of a stamp
+        steps = left / usual
+        rows = _TOO_MANY if steps < 1.0 - late else max(floor(steps + 1.0 - late), 1.0)
+        line = min(max(pace.line, _BEGUN) + max(rows, 1.0), _FOLLOWED)
+        off = min(max(left - rows * usual, -late * usual), late * usual)
+        follow = (4.0 * line - 2.0) / (line * (line + 1.0))
+        given = rows * usual + min(max(follow * off, -0.5 * rows * usual), 0.5 * usual)
         ahead = given - left
         if abs(ahead) <= gap:
-            usual += (dt - passed * usual) / max(min(pace.rows, 500.0), passed)
-            return Timed(_after(pace, usual, ahead, kept, dt), given, 0)
+            usual += 6.0 / (line * (line + 1.0)) * off
+            uneven = not 0.5 * usual < dt < 2.0 * usual
+            return Timed(_after(pace, usual, ahead, kept, dt, line), given, JITTER if uneven else 0)
     if dt > longest_loss and goes_on and usual > 0.0:
         return Timed(_with(pace, usual, 0.0, 0.0, 0, 0), usual, CLOCK_JUMP)
     mean = dt / (pace.waiting + 1.0)
     if mean <= gap:
-        share = min(_SHARE * (pace.waiting + 1.0), 1.0)
-        usual = usual + share * min(mean - usual, _MOST * usual) if usual > 0.0 else mean
+        share, most = min(_SHARE * (pace.waiting + 1.0), 1.0), _MOST * usual
+        if pace.rows < _EARLY:
+            share, most = max(share, 1.0 / (pace.rows + 1.0)), mean
+        usual = usual + share * min(mean - usual, most) if usual > 0.0 else mean
     if kept > 0.0 and dt > gap and 0.0 < left - kept <= gap:  # the clock is back at the time it had
         return Timed(_with(pace, usual, 0.0, 0.0, 0, 0), left - kept, CLOCK_JUMP)
     ahead = 0.0
@@ -154,25 +167,33 @@ def timed(pace: Pace, dt: float, repeated: bool, goes_on: bool, gap: float, long
         flags |= GAP
     elif usual > 0.0 and not 0.5 * usual < left < 2.0 * usual:
         flags |= JITTER
-    return Timed(_after(pace, usual, ahead, kept, dt), left, flags)
+    return Timed(_after(pace, usual, ahead, kept, dt, 0.0), left, flags)
 
 
 @compiled
 def _with(pace: Pace, step: float, ahead: float, back: float, waiting: int, held: int) -> Pace:
     """What is known of the scatter of the stamps stays."""
-    return Pace(step, ahead, back, waiting, held, pace.off, pace.scatter, pace.turns, pace.rows, pace.packets)
+    return Pace(
+        step, ahead, back, waiting, held, pace.off, pace.scatter, pace.turns, pace.rows, pace.line, pace.packets
+    )
 
 
 @compiled
-def _after(pace: Pace, step: float, ahead: float, back: float, dt: float) -> Pace:
+def _after(pace: Pace, step: float, ahead: float, back: float, dt: float, line: float) -> Pace:
     """The pace after a stamp that rose by *dt*: lost rows are no scatter."""
     alone = not within_packet(pace.packets, dt)
-    share = max(_OFTEN, 1.0 / (pace.rows + 1.0)) if dt < 1.5 * step else 0.0
-    off = dt / step - 1.0 if share > 0.0 else 0.0
+    share = max(_OFTEN, 1.0 / (pace.rows + 1.0))
+    off, before = min(dt / step - 1.0, 1.0), pace.off
     scatter, turns = pace.scatter, pace.turns
+    if before > _LONG_STEP and off > -_EARLY_BY * before:  # a row was lost
+        before = 0.0
+    elif before > _LONG_STEP:
+        scatter += share * (before * before - scatter)
+    if off <= _LONG_STEP:
+        scatter += share * (off * off - scatter)
+        turns += share * (off * before - turns)
     return Pace(
-        step, ahead, back, 0, 0, off, scatter + share * (off * off - scatter),
-        turns + share * (off * pace.off - turns), min(pace.rows + 1.0, _LONG),
+        step, ahead, back, 0, 0, off, scatter, turns, min(pace.rows + 1.0, _LONG), line,
         counted(pace.packets, dt, alone, pace.waiting, pace.rows),
     )  # fmt: skip
 
@@ -182,7 +203,7 @@ def _without_stamp(pace: Pace, dt: float) -> Pace:
     """The pace after a row that was given the usual step, although its stamp rose by *dt* only."""
     return Pace(
         pace.step, pace.ahead + pace.step - dt, pace.back, pace.waiting + 1, 0, 0.0, pace.scatter, pace.turns,
-        min(pace.rows + 1.0, _LONG), counted(pace.packets, dt, False, 0, pace.rows),
+        min(pace.rows + 1.0, _LONG), pace.line, counted(pace.packets, dt, False, 0, pace.rows),
     )  # fmt: skip
 
 
