@@ -65,6 +65,28 @@ def test_an_alarm_that_is_acknowledged_too_early_holds_until_the_robot_stands() 
     assert play.at(2.0, S.RIGHTED) == ["released a 1"]
 
 
+def test_only_what_a_person_has_to_see_waits_for_one() -> None:
+    play = Played(stage(S.TIPPING), stage(S.LEANING, S.TIPPING, name="b", latched=False), at_start=("horn",))
+    play.staging.begin(0.0)
+    assert play.staging.active() == ("start",) and play.staging.unacknowledged() == ()
+    play.at(1.0, S.TIPPING)
+    assert play.staging.active() == ("a", "b", "start") and play.staging.unacknowledged() == ("a",)
+    play.at(2.0, S.UPRIGHT)
+    assert play.staging.active() == play.staging.unacknowledged() == ("a",)
+    play.acknowledge()
+    assert play.staging.active() == play.staging.unacknowledged() == ()
+    play.at(3.0, S.TIPPING)
+    play.acknowledge()
+    assert play.staging.active() == ("a", "b") and play.staging.unacknowledged() == ()
+
+
+@pytest.mark.parametrize("state", [S.UPRIGHT, S.RIGHTED, S.UNKNOWN])
+def test_what_ends_by_itself_though_latched_waits_for_nobody(state: TipState) -> None:
+    play = Played(stage(state))
+    assert play.at(0.0, state) == ["fired a 1"]
+    assert play.staging.active() == ("a",) and play.staging.unacknowledged() == ()
+
+
 def test_fired_again_it_must_be_acknowledged_again() -> None:
     play = Played(stage(S.TIPPING))
     play.at(0.0, S.TIPPING)

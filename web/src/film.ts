@@ -40,7 +40,7 @@ export class FilmSource implements Source {
     void this.load();
   }
 
-  ask(_: Command): Promise<void> {
+  ask(_: Command): Promise<never> {
     return Promise.reject(new Error("a recording cannot be changed"));
   }
 

@@ -120,7 +120,7 @@ export class Grid {
     say(tile.second, fixed(second, 0));
     const alarming = tip !== null && ALARMING.has(tip);
     const condition = this.store.conditions.get(id)?.state ?? "waiting";
-    const word = alarming ? tipWord(tip) : invalid ? (condition === "live" ? "not valid" : (STATES[condition] ?? condition)) : tip !== null ? tipWord(tip) : "valid";
+    const word = alarming ? tipWord(tip) : invalid ? (condition === "live" ? "not valid" : STATES[condition]) : tip !== null ? tipWord(tip) : "valid";
     say(tile.state, word);
     tile.element.classList.toggle("alarming", alarming);
     tile.element.classList.toggle("invalid", !alarming && invalid !== "");

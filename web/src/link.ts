@@ -33,7 +33,8 @@ export class Link {
     const heard = health.state === "silent" && health.last_heard_s !== null ? ` for ${fixed(health.last_heard_s, 1)} s` : "";
     const delay = this.store.delays.get(this.id);
     const p99 = health.wait_ms?.p99 ?? this.store.health?.wait_ms.p99;
-    this.set("State", this.store.link.state === "open" ? (STATES[health.state] ?? health.state) + heard : "not known: connection lost");
+    const open = this.store.link.state === "open";
+    this.set("State", open ? STATES[health.state] + heard : "not known: connection lost", open && health.state === "failed");
     this.set("Source", device.source);
     this.set("Rate", `${fixed(health.rate_hz, 1)} Hz`);
     this.set("Samples", count(health.samples));

@@ -9,6 +9,7 @@ import { DownloadDialog, PhoneDialog, TokenDialog } from "./dialogs";
 import { byId, h } from "./dom";
 import { Events } from "./events";
 import { Grid } from "./grid";
+import { Latched } from "./latched";
 import { FilmSource } from "./film";
 import { Playhead } from "./playhead";
 import { Reel, ReelBar } from "./reel";
@@ -39,10 +40,12 @@ class Page {
   private transport: { update(now: number): void };
   private bar: Bar;
   private alarm = new Alarm(this.store);
+  private latched: Latched;
   private banner = new Banner(this.store);
 
   constructor(private source: Source) {
     this.playhead = source instanceof FilmSource ? new Reel(this.store, source) : new Playhead(this.store);
+    this.latched = new Latched(this.store, source);
     const token = new TokenDialog(source);
     this.bar = new Bar(this.store, new PhoneDialog(source), new DownloadDialog(this.store, source), () => this.chosen);
     this.transport = this.playhead instanceof Reel ? new ReelBar(this.playhead) : new Transport(this.store, this.playhead);
@@ -101,6 +104,7 @@ class Page {
   private slow(): void {
     this.bar.update();
     this.alarm.update();
+    this.latched.update();
     this.banner.update();
     if (this.source instanceof FilmSource && this.playhead instanceof Reel) {
       for (const id of this.chosen ? [this.chosen] : this.store.devices.keys()) this.source.look(id, this.playhead.range(), this.playhead.speed);

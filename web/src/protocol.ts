@@ -60,9 +60,13 @@ export interface DeviceInfo {
   sensors?: boolean;
 }
 
+export type DeviceState = "waiting" | "starting" | "live" | "silent" | "standing" | "failed";
+
 export interface DeviceHealth {
   id: string;
-  state: "waiting" | "starting" | "live" | "silent";
+  state: DeviceState;
+  /** the fault that ended its run */
+  failed: string | null;
   rate_hz: number;
   samples: number;
   lost: number;
@@ -77,10 +81,18 @@ export interface DeviceHealth {
   wait_ms?: { p50: number; p99: number };
 }
 
+/** What the responses of a device hold: the names of their stages, and of those that wait until somebody has seen them. */
+export interface Alarming {
+  device: string;
+  holding: string[];
+  unacknowledged: string[];
+}
+
 export interface Health {
   type: "health";
   time: number;
   devices: DeviceHealth[];
+  alarms: Alarming[];
   viewers: number;
   wait_ms: { p50: number; p99: number };
   recording: Recording | null;
@@ -121,18 +133,26 @@ export interface Films extends Pick<Hello, "server" | "flags" | "invalid_flags">
   films: FilmInfo[];
 }
 
+/** The answer to a command; `holding`: to `acknowledge`, the stages that hold even so. */
+export interface Done {
+  type: "done";
+  id: string | null;
+  holding?: string[];
+}
+
 export type Message =
   | Hello
   | { type: "devices"; devices: DeviceInfo[] }
   | Health
   | LiveEvent
   | { type: "dropped"; frames: number }
-  | { type: "done"; id: string | null }
+  | Done
   | { type: "error"; id: string | null; message: string };
 
 export type Command =
   | { type: "methods"; device: string; methods: { name: string; settings: Record<string, unknown> }[] }
-  | { type: "reset_heading"; device: string; forward: string };
+  | { type: "reset_heading"; device: string; forward: string }
+  | { type: "acknowledge"; device: string };
 
 export const HEADER = 16;
 export const RECORD = 120;

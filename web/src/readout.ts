@@ -7,7 +7,7 @@ import type { Playhead } from "./playhead";
 import { ALARMING } from "./protocol";
 import type { DeviceInfo } from "./protocol";
 import type { Store, Track } from "./store";
-import { tipWord, ZERO } from "./words";
+import { remedy, tipWord, ZERO } from "./words";
 
 class Number_ {
   value = h("span", { class: "figure" }, "–");
@@ -34,6 +34,7 @@ export class Readout {
   private about: HTMLElement[] | null;
   private verdict = h("p", { class: "verdict" });
   private why = h("p", { class: "why" });
+  private remedy = h("p", { class: "remedy" });
   private tip = h("p", { class: "tip" });
   private others = h("div", { class: "others" });
   private spoken = h("p", { class: "unseen", role: "status", "aria-live": "polite" });
@@ -44,7 +45,7 @@ export class Readout {
     [this.first, this.second] = [new Number_(joint ? "Angle" : "Heading"), new Number_("Tilt")];
     this.about = joint ? ["Turn", "Pitch", "Roll"].map(() => h("dd")) : null;
     const beside = this.about ? h("dl", { class: "facts" }, ...["Turn", "Pitch", "Roll"].map((name, k) => h("div", {}, h("dt", {}, name), this.about![k]))) : this.second.element;
-    this.element = h("div", { class: "readouts" }, h("div", { class: "pair" }, this.first.element, beside), h("div", { class: "state" }, this.verdict, this.tip, this.why), this.others, this.spoken);
+    this.element = h("div", { class: "readouts" }, h("div", { class: "pair" }, this.first.element, beside), h("div", { class: "state" }, this.verdict, this.tip, this.why, this.remedy), this.others, this.spoken);
   }
 
   private row(track: Track): number {
@@ -62,6 +63,7 @@ export class Readout {
     this.figures(a, main);
     say(this.verdict, invalid ? "Not valid" : "Valid");
     say(this.why, invalid);
+    say(this.remedy, invalid && this.playhead.following ? this.toDo() : "");
     say(this.spoken, `${this.device.id}: attitude ${invalid ? `not valid: ${invalid}` : "valid"}`);
     const tip = main && k >= 0 ? main.ring.tip(k) : 255;
     const watched = tip !== 255;
@@ -70,6 +72,12 @@ export class Readout {
     this.element.classList.toggle("invalid", invalid !== "");
     this.compare(tracks.slice(1));
     return { invalid, tip: watched ? tip : null };
+  }
+
+  /** What can be done where nothing is known now; of a server that is gone, nothing is known of its devices either. */
+  private toDo(): string {
+    const health = this.store.conditions.get(this.device.id);
+    return health && this.store.link.state === "open" ? remedy(health, this.about !== null) : "";
   }
 
   private figures(a: Angles | null, main: Track | undefined): void {

@@ -1,6 +1,6 @@
 // The live source: a WebSocket that comes back by itself.
 
-import type { Command, Message } from "./protocol";
+import type { Command, Done, Message } from "./protocol";
 import type { Sink, Source } from "./source";
 
 const KEY = "poise.token";
@@ -37,7 +37,7 @@ export class SocketSource implements Source {
   private retry = 0;
   /** whether something came of devices that were told of only later */
   private missed = false;
-  private pending = new Map<string, { resolve: () => void; reject: (reason: Error) => void }>();
+  private pending = new Map<string, { resolve: (done: Done) => void; reject: (reason: Error) => void }>();
 
   start(sink: Sink): void {
     this.sink = sink;
@@ -55,7 +55,7 @@ export class SocketSource implements Source {
     return serverGet(path);
   }
 
-  ask(command: Command): Promise<void> {
+  ask(command: Command): Promise<Done> {
     const id = `page-${++this.asked}`;
     return new Promise((resolve, reject) => {
       if (this.socket?.readyState !== WebSocket.OPEN) return reject(new Error("there is no connection to the server"));
@@ -108,7 +108,7 @@ export class SocketSource implements Source {
     if (message.type === "done" || message.type === "error") {
       const waiting = this.pending.get(message.id ?? "");
       this.pending.delete(message.id ?? "");
-      if (message.type === "done") waiting?.resolve();
+      if (message.type === "done") waiting?.resolve(message);
       else waiting?.reject(new Error(message.message));
     }
     this.sink.message(message);

@@ -1,6 +1,6 @@
 // Where what the page shows comes from. The page knows only this: a server today, a file for `poise view`.
 
-import type { Command, Message } from "./protocol";
+import type { Command, Done, Message } from "./protocol";
 
 export type Connection =
   | { state: "connecting" }
@@ -22,8 +22,8 @@ export interface Source {
   /** Whether time goes on by itself: there is a "now" that the page follows. A file has an end instead. */
   readonly live: boolean;
   start(sink: Sink): void;
-  /** Asks for a change; rejects with the reason why not. */
-  ask(command: Command): Promise<void>;
+  /** Asks for a change; the answer, or rejects with the reason why not. */
+  ask(command: Command): Promise<Done>;
   /** GET of the same server, with its token where there is one. */
   get(path: string): Promise<Response>;
   /** Shows a token to a server that wants one. */

@@ -4,6 +4,7 @@ import { AT, HEADER, RECORD, TIP } from "./protocol";
 import type { DeviceHealth, DeviceInfo, Health, Hello, LiveEvent, Message, RunningMethod } from "./protocol";
 import { Ring } from "./ring";
 import type { Connection, Sink } from "./source";
+import { UNKNOWN } from "./words";
 
 /** s of the past that are kept, at 30 records a second */
 export const KEPT = 300;
@@ -13,6 +14,8 @@ const MOST_EVENTS = 500;
 const APART = 5; // s: a mapped clock that is further off, as of a replay at ten times the speed, is not plotted against
 
 export interface Track {
+  /** the device's name */
+  device: string;
   method: RunningMethod;
   /** distinguishes the colours of methods side by side */
   colour: number;
@@ -63,6 +66,7 @@ export class Store implements Sink {
     switch (message.type) {
       case "hello":
         this.hello = message;
+        this.health = null; // of the connection before: it may have been another server's
         this.clock = Infinity;
         this.compareClocks(message.time);
         this.recall(message.events ?? []);
@@ -125,7 +129,7 @@ export class Store implements Sink {
       for (const method of device.methods) {
         const key = `${method.name} ${method.settings}`;
         let track = known.get(key);
-        if (!track) known.set(key, (track = { method, colour: unused(known), ring: new Ring(), running: true }));
+        if (!track) known.set(key, (track = { device: device.id, method, colour: unused(known), ring: new Ring(), running: true }));
         track.method = method;
         track.running = true;
         numbered[method.number] = track;
@@ -222,10 +226,12 @@ export class Store implements Sink {
   /** Why record *k* must not be acted on; empty where it may be. */
   whyInvalid(track: Track, k: number): string {
     if (this.link.state !== "open") return "connection lost: the attitude now is unknown";
-    if (k < 0) return "no sample yet";
+    const state = this.conditions.get(track.device)?.state;
+    const why = state && UNKNOWN[state];
+    if (k < 0) return why ?? "no sample yet";
     if (track.ring.valid(k)) return "";
     const reasons = this.sentences(track.ring.flags(k)).filter((each) => each.invalid);
-    return reasons.map((each) => each.sentence).join("; ") || "the method says that it may not be acted on";
+    return reasons.map((each) => (each.name === "SILENT" && why ? why : each.sentence)).join("; ") || "the method says that it may not be acted on";
   }
 
   /** The tip-over state of now. */

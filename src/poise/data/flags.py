@@ -52,7 +52,7 @@ SENTENCES: dict[Flag, str] = {
     Flag.GAP: "gap in the time stamps: the motion inside it is unknown",
     Flag.LOST: "the rotation was not measured for too long: the attitude is unknown",
     Flag.RESET: "set anew from the accelerometer and magnetometer, with the bias it had: the attitude jumps",
-    Flag.SILENT: "no sample has arrived in time: the attitude now is unknown",
+    Flag.SILENT: "no sample has arrived in time, or none whose stamp goes on: the attitude now is unknown",
     Flag.REST: "at rest: the gyroscope's bias is being measured",
     Flag.ACC_DOUBTED: "specific force far from gravity: the accelerometer counts less",
     Flag.HEADING_ARBITRARY: (

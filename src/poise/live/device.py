@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections import deque
 from math import inf
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,9 @@ from poise.live.methods import Choice
 from poise.monitor import Monitor
 
 Floats = NDArray[np.float64]
+
+State = Literal["waiting", "starting", "live", "silent", "standing", "failed"]
+"""How a device fares; the page has words for each."""
 
 _BURST = 1.0  # s of samples at the highest rate that may come at once
 _SILENCE = 0.05  # s, at least; and three usual intervals between arrivals
@@ -328,7 +331,7 @@ class Device:
             "failed": self.failed or None,
         }
 
-    def _state(self) -> str:
+    def _state(self) -> State:
         if self.failed:
             return "failed"
         if not self.health.samples:

@@ -288,20 +288,28 @@ class Server:
             "time": time.time(),
             "devices": hub.conditions(devices or hub.shown, now),
             "sources": self.feeding.conditions(),
+            "alarms": [] if hub.watch is None else hub.watch.alarms(),
             "viewers": len(self.viewers),
             "wait_ms": {"p50": round(1e3 * waits.quantile(0.5), 3), "p99": round(1e3 * waits.quantile(0.99), 3)},
             "recording": self.recorder.condition() if self.recorder else None,
         }
 
-    def change(self, kind: str, asked: dict[str, Any]) -> None:
-        """What someone who may write asks for: one of ``sockets._CHANGES``. Raises :class:`PoiseError`."""
+    def change(self, kind: str, asked: dict[str, Any]) -> dict[str, Any]:
+        """What someone who may write asks for: one of ``sockets._CHANGES``; what the answer says beside *done*.
+
+        Raises :class:`PoiseError`.
+        """
         if kind == "joint":
-            return self.hub.set_joint(*(str(asked.get(key, "")) for key in ("name", "segment", "base")))
-        if kind == "remove_joint":
-            return self.hub.remove_joint(str(asked.get("name")))
-        if kind == "acknowledge":
-            self.acknowledge(str(asked.get("device")))
-            return None
+            self.hub.set_joint(*(str(asked.get(key, "")) for key in ("name", "segment", "base")))
+        elif kind == "remove_joint":
+            self.hub.remove_joint(str(asked.get("name")))
+        elif kind == "acknowledge":
+            return {"holding": self.acknowledge(str(asked.get("device")))}
+        else:
+            self._change_device(kind, asked)
+        return {}
+
+    def _change_device(self, kind: str, asked: dict[str, Any]) -> None:
         device = self.hub.find(str(asked.get("device")))
         if device.to_restore is not None:
             raise HubError(f"{device.name} is being brought to where its recording ends; ask again in a moment")
@@ -312,7 +320,6 @@ class Server:
             if forward not in ("x", "y", "z", "-x", "-y", "-z"):
                 raise HubError(f"forward: expected a body axis such as y or -x, found {forward!r}")
             self.hub.reset_heading(device, forward)
-        return None
 
     def acknowledge(self, name: str) -> list[str]:
         """Someone has seen the alarm of the device *name*; the stages that hold even so. Raises :class:`HubError`."""

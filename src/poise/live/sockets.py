@@ -244,15 +244,16 @@ class Viewer:
         try:
             asked = json.loads(text)
             kind = asked.get("type") if isinstance(asked, dict) else None
+            facts: dict[str, Any] = {}
             if kind == "subscribe":
                 self._subscribe(asked)
             elif kind in _CHANGES:
                 if not self._may_write:
                     raise HubError("this token may look, not change: a token with the scope 'write' is needed")
-                self._server.change(kind, asked)
+                facts = self._server.change(kind, asked)
             else:
                 raise HubError(f"message type {kind!r}: expected subscribe, {', '.join(_CHANGES)}")
-            self.say({"type": "done", "id": asked.get("id"), "what": kind})
+            self.say({"type": "done", "id": asked.get("id"), "what": kind, **facts})
         except (PoiseError, ValueError, TypeError, KeyError, RecursionError) as problem:
             asked = locals().get("asked")
             answer = asked.get("id") if isinstance(asked, dict) else None

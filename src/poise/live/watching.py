@@ -53,6 +53,18 @@ class Watch:
         for each in self.responses.values():
             each.close()
 
+    def alarms(self) -> list[dict[str, Any]]:
+        """What holds of which device, and what of that waits until somebody says that it was seen.
+
+        A device is among them that has never come: with ``unknown = "as tipping"`` that is an alarm, too.
+        """
+        found = [(name, each.active, each.unacknowledged) for name, each in self.responses.items()]
+        return [
+            {"device": name, "holding": list(holding), "unacknowledged": list(waiting)}
+            for name, holding, waiting in found
+            if holding
+        ]
+
     def handle(self, device: str, event: TipEvent) -> None:
         """Answers a change of state of *device*."""
         if device in self.responses:

@@ -140,6 +140,12 @@ class Responses:
             return self._staging.active()
 
     @property
+    def unacknowledged(self) -> tuple[str, ...]:
+        """Those of :attr:`active` that hold, whatever the body does, until :meth:`acknowledge`."""
+        with self._lock:
+            return self._staging.unacknowledged()
+
+    @property
     def failures(self) -> tuple[Failure, ...]:
         """The last thousand failures, oldest first."""
         with self._lock:

@@ -140,6 +140,11 @@ class Staging:
         """The names of the stages that have fired and were not released."""
         return tuple(s.name for s, memory in zip(self.stages, self._memories, strict=True) if memory.active)
 
+    def unacknowledged(self) -> tuple[str, ...]:
+        """The names of those that do not end before :meth:`acknowledge`, whatever the body does."""
+        both = zip(self.stages, self._memories, strict=True)
+        return tuple(s.name for s, memory in both if memory.active and not memory.acknowledged and _waits(s))
+
     def _belongs(self, stage: Stage, state: TipState) -> bool:
         if state == TipState.UNKNOWN and self.unknown == "as tipping":
             state = TipState.TIPPING
@@ -156,7 +161,7 @@ class Staging:
     def _over(self, stage: Stage, memory: _Memory) -> bool:
         if memory.inside:
             return False
-        if _calm(stage) or stage.states == {TipState.UNKNOWN}:
+        if _passes(stage):
             return True
         if memory.acknowledged:
             return self.state in _CALM
@@ -165,3 +170,13 @@ class Staging:
 
 def _calm(stage: Stage) -> bool:
     return bool(stage.states) and stage.states <= _CALM
+
+
+def _passes(stage: Stage) -> bool:
+    """Whether it ends with its states, though it is latched: good news, and that nothing is known."""
+    return _calm(stage) or stage.states == {TipState.UNKNOWN}
+
+
+def _waits(stage: Stage) -> bool:
+    """Whether a person has to say that it was seen."""
+    return stage.latched and not _passes(stage)
