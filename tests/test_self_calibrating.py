@@ -21,6 +21,7 @@ from poise.data.packet import Packet
 from poise.errors import MethodError
 from poise.estimators.loop import state_of
 from poise.estimators.self_calibrating.backward import back
+from poise.estimators.self_calibrating.block import from_behind
 from poise.estimators.self_calibrating.model import (
     ACC_BIAS,
     ACC_DELAY,
@@ -42,6 +43,7 @@ from poise.estimators.self_calibrating.model import (
 )
 from poise.formats import read_attitude
 from poise.math import arrays
+from poise.math.vectors import Vec3
 from poise.simulation import PERFECT, Sensor, Triad, forearm, measure, phone, robot
 
 Floats = NDArray[np.float64]
@@ -522,3 +524,41 @@ def test_the_way_back_too_weighs_gravity_as_the_recording_does() -> None:
     np.testing.assert_allclose(poise.smooth(moon).quat[-1], poise.estimate(FLAGSHIP, moon).quat[-1], atol=1e-9)
     with pytest.raises(poise.PoiseError, match="expected a Recording"):
         poise.smooth(moon.gyr)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("trial", "seconds"), [("07_undisturbed_fast_rotation_B", 29.5), ("21_undisturbed_fast_combined", 87.3)]
+)
+def test_a_start_in_fast_motion_is_levelled_by_what_follows(trial: str, seconds: float) -> None:
+    """One sample there was up to 109 degrees wrong, and the heading stayed half a turn off."""
+    whole = poise.read(data_path(f"broad/{trial}.mat"))
+    cut = whole.between(whole.time[0] + seconds, whole.time[0] + seconds + 30.0)
+    causal, smoothed = poise.estimate(poise.SelfCalibrating(), cut), poise.smooth(cut)
+    starting = cut.time < cut.time[0] + 2.9
+    assert not causal.valid[starting].any()
+    assert smoothed.valid[starting].all()
+    later = ~starting & (cut.time > cut.time[0] + 8.0)
+    assert np.degrees(poise.evaluate(causal, cut).total[later]).max() < 15.0
+    assert poise.evaluate(smoothed, cut).rmse_deg().total < 4.0
+    error = poise.evaluate(smoothed, cut).inclination
+    assert np.nanmean(error[starting] < 3.0 * np.hypot(smoothed.sigma[starting, 0], smoothed.sigma[starting, 1])) > 0.95
+
+
+@pytest.mark.parametrize("off_deg", [-179.0, -120.0, 95.0, 150.0, 180.0])
+def test_a_field_from_behind_says_how_far_the_heading_is_off(off_deg: float) -> None:
+    """Its part to the east is small near half a turn; a correction that is linear in it would leave the heading so."""
+    field, off = Vec3(0.0, 0.6, -0.8), np.radians(off_deg)
+    seen = Vec3(0.6 * np.sin(off), 0.6 * np.cos(off), -0.8)
+    told = from_behind(seen - field, field)
+    assert told.x == pytest.approx(0.6 * off)
+    assert told.y == pytest.approx(0.0, abs=1e-12)
+    assert told.z == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_recording_that_never_rests_is_right_from_the_first_row_offline() -> None:
+    recording = measure(forearm(60.0, 100.0, seed=5), seed=5)
+    assert recording.moving is not None
+    moving = recording[int(np.flatnonzero(recording.moving)[200]) :]
+    smoothed = poise.smooth(moving)
+    assert smoothed.valid.all()
+    assert np.degrees(np.nanmax(poise.evaluate(smoothed, moving).inclination[:300])) < 4.0

@@ -32,7 +32,10 @@ _MOST = 0.1  # of the usual step: a longer one counts as that much longer, for a
 _EARLY = 50.0  # rows: until then the usual step is the mean of all
 _BEGUN, _FOLLOWED = 20.0, 400.0  # rows that the line through stamps that scatter is drawn through: from, and at most
 _SCATTER = 4e-4  # (usual step)²: 2 % of it, squared; less is not worth a thought
-_TURNS_BACK, _STILL = -0.3, -0.15  # correlation of successive steps. −0.5 where the stamps scatter, and 0 where the samples do; once it is known
+_TURNS_BACK, _STILL = (
+    -0.3,
+    -0.15,
+)  # correlation of successive steps. −0.5 where the stamps scatter, and 0 where the samples do; once it is known
 _LONG_STEP, _EARLY_BY = 0.5, 0.5  # more than the usual step: a row was lost, unless the next is early by so much of it
 _LATEST = 0.9  # (usual step): a stamp later than that is the next row's
 _TOO_MANY = 0.05  # (usual step): what a row is taken to last where one was taken for lost that was not
@@ -48,7 +51,7 @@ class Pace(NamedTuple):
     back: float  # s that the clock was set back; should it come back to its old time, that is no gap
     waiting: int  # rows since the last stamp that rose
     held: int  # rows in a row that no time was given to
-    off: float  # of the last step from the usual one, in usual steps; where above 0.5, it is yet to be seen whether a row was lost
+    off: float  # of the last step from the usual one, in usual steps; above 0.5 the next row tells whether one was lost
     scatter: float  # mean square of that
     turns: float  # mean product with the one before
     rows: float  # that this is known from, counted up to 5000

@@ -22,6 +22,7 @@ from poise.estimators.self_calibrating.model import (
     ENTRY,
     FIELD,
     GOES_ON,
+    IN_MOTION,
     INJECTED,
     MAG_DELAY,
     ONE,
@@ -207,6 +208,8 @@ def apply(
             table[r, 7 + i] += change
             # What is in the causal sigma beside P stays; P, there, is that of the last end, until the next.
             first = begun.x if i == 0 else (begun.y if i == 1 else begun.z)
+            if i < 2 and table[r, 10 + i] ** 2 > 4.0 * first:  # a start that was found to be in motion
+                first *= IN_MOTION**2
             known = first if index[r] == 0 else corrections[before, 19 + i]
             now = (1.0 - share) * corrections[before, 12 + i] + share * corrections[after, 12 + i]
             table[r, 10 + i] = min(sqrt(max(table[r, 10 + i] ** 2 - known + now, 0.0)), pi)

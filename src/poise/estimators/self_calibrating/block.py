@@ -26,13 +26,16 @@ from poise.estimators.self_calibrating.model import (
     GOES_ON,
     HEADING_SET,
     HELD,
+    IN_MOTION,
     IRON,
     JUST_FOUND,
     MAG_DELAY,
     SCALE,
+    SHAKEN,
     SIZE,
     SUMS,
     TURN,
+    TURNING,
     VELOCITY,
     Floats,
     H,
@@ -98,7 +101,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     if not state.begun and acc_delay == 0.0:  # somewhere from none to half an interval
         acc_delay = 0.25 * interval
         P[ACC_DELAY, ACC_DELAY] += (0.15 * interval) ** 2
-    q = state.attitude if state.begun else levelled(method, state.attitude, s)
+    q = state.attitude if state.begun else levelled(method, P, state.attitude, s)
     force = s.force if state.begun else rotate(q * conjugate(state.attitude), s.force)
     v = known.velocity + force - (method.gravity * s.force_time) * UP
     for j in range(SIZE):
@@ -111,7 +114,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         correct_one(P, BIAS + 1, still.y, variance)
         correct_one(P, BIAS + 2, still.z, variance)
     wander = known.wander
-    if s.force_time > 0.0:
+    if s.force_time > 0.0 and (state.begun or not in_motion(method, P)):
         if rest:
             variance = method.rest_speed**2 * method.block / T
         else:
@@ -171,7 +174,8 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
             own = max(spread, beyond_own / 27.0)
             variance = (method.field_time * own + method.block * method.mag_rate_noise**2 * rate_square) / s.mag_time
             all_axes = P[0, 0] + P[1, 1] > 2.0 * method.sure_tilt**2
-            correct_field(P, e, field, (1.0 / s.mags) * s.to_iron, (1.0 / s.mags) * s.to_delay, all_axes, variance)
+            told = from_behind(e, field)
+            correct_field(P, told, field, (1.0 / s.mags) * s.to_iron, (1.0 / s.mags) * s.to_delay, all_axes, variance)
     symmetrise(P)
     seen = e + field if s.mags > 0.0 and length > 0.0 else ZERO
     at_hand, upright = ZERO, ZERO  # body frame, in lengths of the field and in g
@@ -247,14 +251,58 @@ def likely_bias(method: SelfCalibrating, P: Floats, off: Vec3) -> bool:
 
 
 @compiled
-def levelled(method: SelfCalibrating, q: Quat, s: Sums) -> Quat:
-    """The attitude that a block started at, levelled where gravity contradicts it: then it was given, and wrong."""
+def level(method: SelfCalibrating, P: Floats, s: Sums, dt: float, calm: float) -> bool:
+    """Whether the first block can say where up is: one in motion goes on for `level_time`, or until nothing moves."""
+    end = method.block - 0.5 * dt
+    if s.time - dt < end:  # else it was found to be in motion
+        shaken = s.excess_square > (SHAKEN * method.gravity) ** 2 * s.samples
+        moves = shaken or s.rate_square > TURNING**2 * s.samples
+        forget(P, TURN, 2, ((IN_MOTION if moves else 1.0) * method.initial_tilt) ** 2)
+        if not moves or s.time < end:
+            return s.time >= end
+    return s.time >= method.level_time or calm >= method.rest_time
+
+
+@compiled
+def in_motion(method: SelfCalibrating, P: Floats) -> bool:
+    """Whether the first block, while it is open, seems to be in motion."""
+    return float(P[TURN, TURN]) > (2.0 * method.initial_tilt) ** 2
+
+
+@compiled
+def levelled(method: SelfCalibrating, P: Floats, q: Quat, s: Sums) -> Quat:
+    """The attitude that the first block started at, levelled by its mean force.
+
+    In motion always; else where gravity contradicts it: then it was given, and wrong.
+    """
     if s.force_time == 0.0:
         return q
     mean = (1.0 / s.force_time) * s.force
     length = norm(mean)
-    off = mean.z < cos(3.0 * method.initial_tilt) * length
-    return shortest_turn(unit(mean), UP) * q if off and abs(length - method.gravity) < 0.1 * method.gravity else q
+    off = mean.z < cos(3.0 * method.initial_tilt) * length and abs(length - method.gravity) < 0.1 * method.gravity
+    return shortest_turn(unit(mean), UP) * q if off or (in_motion(method, P) and length > 0.0) else q
+
+
+@compiled
+def so_far(q: Quat, s: Sums) -> Quat:
+    """The attitude in a first block in motion that is still open: levelled, and turned to the field, by what it has seen."""
+    if s.force_time == 0.0 or dot(s.force, s.force) == 0.0:
+        return q
+    levelling = shortest_turn(unit(s.force), UP)
+    e = rotate(levelling, s.off)
+    return (exp(atan2(e.x, e.y) * UP) * levelling if s.mags > 0.0 else levelling) * q
+
+
+@compiled
+def from_behind(e: Vec3, field: Vec3) -> Vec3:
+    """The field's error *e*; of a field that points south, as if it were small: the heading's part by its angle (eq. 14a).
+
+    East alone is nothing where the heading is half a turn off, and a heading that is would stay so.
+    """
+    north = e.y + field.y
+    if north >= 0.0:
+        return e
+    return Vec3(field.y * atan2(e.x, north), sqrt(e.x * e.x + north * north) - field.y, e.z)
 
 
 @compiled

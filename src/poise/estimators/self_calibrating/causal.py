@@ -27,7 +27,7 @@ from poise.data.flags import (
 from poise.data.learned import Learned
 from poise.data.packet import Output, Sample
 from poise.estimators.self_calibrating.another_field import forget_field
-from poise.estimators.self_calibrating.block import closed
+from poise.estimators.self_calibrating.block import closed, in_motion, level, so_far
 from poise.estimators.self_calibrating.covariance import enter_block, forget
 from poise.estimators.self_calibrating.learned import check_start, doubts, iron_from_before, take_over, without_iron
 from poise.estimators.self_calibrating.learned import learned as known_by_now
@@ -46,6 +46,7 @@ from poise.estimators.self_calibrating.model import (
     FIELD,
     FORCE,
     HEADING_SET,
+    IN_MOTION,
     IRON,
     JUST_FOUND,
     LENGTHS,
@@ -55,8 +56,10 @@ from poise.estimators.self_calibrating.model import (
     ROWS,
     SCALE,
     SENSOR,
+    SHAKEN,
     SUMS,
     TURN,
+    TURNING,
     UNPROVEN,
     VELOCITY,
     Floats,
@@ -78,7 +81,7 @@ from poise.estimators.self_calibrating.watch import forget_watch, settled
 from poise.math.compiled import compiled
 from poise.math.matrices import I3, Mat3, matrix, transpose
 from poise.math.quaternions import attitude_of, exp, renormalized, rotate
-from poise.math.vectors import UP, ZERO, Vec3, cross, dot, present, within
+from poise.math.vectors import UP, ZERO, Vec3, cross, dot, norm, present, within
 
 _FIRST_SPREAD = 1e-4  # (share of the field)², before any has been measured
 _FIRST_WANDER = 0.04  # (m/s)²
@@ -157,6 +160,7 @@ class SelfCalibrating(NamedTuple):
     watch_heading: Annotated[
         float, "rad", "a field turned further, with its dip and length, means the same", (1e-3, 10.0)
     ] = radians(12.0)
+    level_time: Annotated[float, "s", "of samples that a start in motion is levelled by", (0.1, 100.0)] = 3.0
     sure_tilt: Annotated[
         float, "rad", "the magnetometer corrects the tilt too while that is less sure", (0.0, 10.0)
     ] = radians(2.0)
@@ -190,6 +194,8 @@ class SelfCalibrating(NamedTuple):
         begin_open(P, self.least_iron)
         if present(sample.mag) and float(P[OPEN, 0]) > 0.0:
             P[OPEN, UNPROVEN] = 1.0
+        if not within(sample.gyr - bias, TURNING) or abs(norm(sample.acc) - self.gravity) > SHAKEN * self.gravity:
+            forget(P, TURN, 2, (IN_MOTION * self.initial_tilt) ** 2)
         none = Mat3(ZERO, ZERO, ZERO)
         put_sensor(P, Sensor(none, ZERO, ZERO, ZERO, self.mag_delay, 0.0, 0.0, _FIRST_SPREAD, _FIRST_WANDER, ZERO, 0.0))
         attitude = attitude_of(sample.acc, sample.mag, 0.0)
@@ -205,7 +211,7 @@ class SelfCalibrating(NamedTuple):
                 iron = iron_from_before(known.iron, -known.length, sample.mag, I3)
         unsure_attitude(self, P)
         if state.begun:
-            forget(P, TURN, 2, (4.0 * self.initial_tilt) ** 2)  # it may well be in motion
+            forget(P, TURN, 2, (IN_MOTION * self.initial_tilt) ** 2)  # it may well be in motion
             enter_block(P, NOTHING, BEGUN_ANEW, self.gravity)
         begin_block(P)
         forget_watch(P)
@@ -282,7 +288,8 @@ class SelfCalibrating(NamedTuple):
         )  # fmt: skip
         seconds = state.calm + T if calm else 0.0
         still = state.still + T if calm and slow else 0.0
-        if sums.time < self.block - 0.5 * T:
+        ends = sums.time >= self.block - 0.5 * T if state.begun else level(self, P, sums, T, seconds)
+        if not ends:
             put_sums(P, sums)
             return State(q, state.bias, w, mean_gyr, mean_acc, seconds, still, state.begun, P)
         return closed(self, State(q, state.bias, w, mean_gyr, mean_acc, seconds, still, state.begun, P), sums, known)
@@ -290,6 +297,9 @@ class SelfCalibrating(NamedTuple):
     def output(self, state: State, sample: Sample) -> Output:
         """The attitude, after *lead*, with true north; sigma about the Earth's axes from P and what P cannot know."""
         q = state.attitude
+        starting = not state.begun and in_motion(self, state.P)
+        if starting and self.log == 0:  # `smooth` turns them itself
+            q = so_far(q, sums_of(state.P))
         if self.lead != 0.0:
             q = q * exp(self.lead * state.rate)
         if self.declination != 0.0:
@@ -306,7 +316,7 @@ class SelfCalibrating(NamedTuple):
         flags = REST if state.still >= self.rest_time else 0
         if float(P[SENSOR, 21]) > 0.05**2:
             flags |= MAG_DISTURBED
-        if not settled(P):
+        if starting or not settled(P):
             flags |= UNSETTLED
         if not within(sample.gyr, 0.98 * self.gyr_range):
             flags |= GYR_CLIPPED

@@ -12,7 +12,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from poise.data.attitude import QUAT, Attitude
-from poise.data.flags import ANOTHER_FIELD, HARD_IRON, HEADING_ARBITRARY, HEADING_UNPROVEN, INVALID, KNOWN, LOST, RESET
+from poise.data.flags import (
+    ANOTHER_FIELD,
+    HARD_IRON,
+    HEADING_ARBITRARY,
+    HEADING_UNPROVEN,
+    INVALID,
+    KNOWN,
+    LOST,
+    RESET,
+    UNSETTLED,
+)
 from poise.data.learned import Learned
 from poise.data.recording import Recording
 from poise.errors import MethodError, RecordingError
@@ -157,6 +167,7 @@ def _both_ways(
             heading -= method.local_field**2
         begun = Vec3(tilt, tilt, heading)
         apply(past.time, way.entry, past.table, way.time, way.corrections, begun, method.declination)
+        past.flags[way.entry == 0] &= ~np.uint32(UNSETTLED)  # levelled by what came after
         _turn_what_was_before(past)
         if method.least_iron < ANY:
             judge_headings(stream.P, past, method.declination)
