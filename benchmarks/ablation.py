@@ -6,6 +6,7 @@ trials        causal and offline on every trial, beside vqf
 without       one part left out at a time
 sensitivity   each parameter halved and doubled alone
 late          the first seconds cut off, so that the start is nearer to motion or in it
+moving        pieces that begin in motion
 rates         block means of 3 and 6 samples
 six           without magnetometer: inclination, and drift of the heading from the first row in motion
 sigma         how sigma covers the errors about the Earth's axes, by what the sensor does
@@ -166,6 +167,33 @@ def late(trials: Trials) -> Iterator[Table]:
         found = {name: errors(run, cut) for name, run in RUNS.items()}
         rows.append([f"{seconds:g} s", *(slashed(mean(e)) for e in found.values())])
     yield "the first seconds cut off: mean total/heading/inclination RMSE, degrees", ["", *RUNS], rows
+
+
+def moving(trials: Trials) -> Iterator[Table]:
+    """Pieces of 60 s that begin in motion, every 4 s of the six trials that turn or shake most of the time."""
+    found: dict[str, list[list[float]]] = {name: [] for name in RUNS}
+    spans = [(0.0, 3.0), (3.0, 6.0), (6.0, np.inf), (0.0, np.inf)]
+    for name, whole in trials.items():
+        if name[:2] not in ("01", "07", "09", "15", "21", "31"):
+            continue
+        assert whole.moving is not None
+        begin, end = whole.time[whole.moving][[0, -1]]
+        for cut in np.arange(begin + 3.0, end - 45.0, 4.0):
+            piece = whole.between(cut, cut + 60.0)
+            for run, made in RUNS.items():
+                e = poise.evaluate(made(piece), piece)
+                t, square = piece.time[e.counted] - cut, e.total[e.counted] ** 2
+                means = [float(np.degrees(np.sqrt(np.mean(square[(a <= t) & (t < b)])))) for a, b in spans]
+                found[run].append(means)
+    labels = ["first 3 s", "3 to 6 s", "from 6 s on", "all", "all: median", "all: largest"]
+    rows: list[list[Cell]] = [[label] for label in labels]
+    for errors_ in found.values():
+        e_ = np.array(errors_)
+        cells = [*np.nanmean(e_, axis=0), np.nanmedian(e_[:, 3]), np.nanmax(e_[:, 3])]
+        for row, cell in zip(rows, cells, strict=True):
+            row.append(float(cell))
+    n = len(next(iter(found.values())))
+    yield f"{n} pieces of 60 s that begin in motion: mean of their total RMSE, degrees", ["", *RUNS], rows
 
 
 def rates(trials: Trials) -> Iterator[Table]:
@@ -495,8 +523,8 @@ def made(trials: Trials) -> Iterator[Table]:
 
 
 SECTIONS: dict[str, Callable[[Trials], Iterator[Table]]] = {
-    "trials": per_trial, "without": without, "sensitivity": sensitivity, "late": late, "rates": rates, "six": six,
-    "sigma": sigma, "start": start, "lying": lying, "magnet": magnet, "iron": iron, "dock": dock,
+    "trials": per_trial, "without": without, "sensitivity": sensitivity, "late": late, "moving": moving, "rates": rates,
+    "six": six, "sigma": sigma, "start": start, "lying": lying, "magnet": magnet, "iron": iron, "dock": dock,
     "accelerometer": accelerometer, "field": field, "instant": instant, "tried": tried, "made": made,
 }  # fmt: skip
 

@@ -1,6 +1,6 @@
 """Each source's method in the regime that its source is made for: the figures on the methods' pages.
 
-python benchmarks/regimes.py [armband] [tilt] [gated] [sigma]     all of them by default
+python benchmarks/regimes.py [armband] [tilt] [gated] [stamps] [sigma]     all of them by default
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import poise
 from accuracy import trial_files
 from poise.data.recording import Recording
 from poise.math import arrays
+from poise.peers import chosen
 from poise.simulation import PERFECT, at_rest, forearm, measure
 from studies import block_means
 from tables import Cell, table
@@ -134,6 +135,38 @@ def gated(trials: Trials) -> Iterator[Table]:
     yield "gated, a phone still for 30 s with 0.2 deg/s of bias: total error at the end, degrees", columns, rows
 
 
+def stamps(trials: Trials) -> Iterator[Table]:
+    """Stamps that scatter about an even pace, at 95 Hz: off by up to so much of a period, or late as on a busy computer."""
+    vqf = chosen("vqf")["vqf"]
+    rows: list[list[Cell]] = []
+    for label, share in (
+        ("even", 0.0),
+        ("±0.1", 0.1),
+        ("±0.2", 0.2),
+        ("±0.3", 0.3),
+        ("±0.4", 0.4),
+        ("late, mean 0.2", -0.2),
+    ):
+        cells: list[list[float]] = []
+        for name, recording in trials.items():
+            thin, rng = block_means(recording, 3), np.random.default_rng(int(name[:2]))
+            n, period = len(thin), float(np.median(np.diff(thin.time)))
+            off = share * rng.uniform(-1.0, 1.0, n) if share >= 0.0 else rng.exponential(-share, n)
+            late = replace(thin, time=np.maximum.accumulate(thin.time + period * off))
+            made = [
+                poise.estimate(poise.SelfCalibrating(), late),
+                poise.smooth(late),
+                poise.estimate(poise.TwoStage(), late),
+            ]
+            cells.append([poise.evaluate(a, thin).rmse_deg().total for a in (*made, vqf.attitude(late))])
+        rows.append([label, *(float(v) for v in np.mean(cells, axis=0))])
+    yield (
+        "stamps off by a share of the period, 95 Hz: mean total RMSE, degrees",
+        ["", "self-calibrating", "offline", "two-stage", "vqf"],
+        rows,
+    )
+
+
 def sigma(trials: Trials) -> Iterator[Table]:
     """How the methods' sigma covers their errors, per Earth axis; of Tilt the inclination only."""
     rows: list[list[Cell]] = []
@@ -165,7 +198,7 @@ def _tilt_ratio(recording: Recording) -> np.ndarray:
 
 
 REGIMES: dict[str, Callable[[Trials], Iterator[Table]]] = {
-    "armband": armband, "tilt": tilt, "gated": gated, "sigma": sigma,
+    "armband": armband, "tilt": tilt, "gated": gated, "stamps": stamps, "sigma": sigma,
 }  # fmt: skip
 
 if __name__ == "__main__":
