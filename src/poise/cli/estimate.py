@@ -11,7 +11,7 @@ from cyclopts import Parameter
 
 from poise.cli import show
 from poise.cli.options import Reading, Running
-from poise.cli.targets import PICTURES, targets
+from poise.cli.targets import PICTURES, really, targets
 from poise.cli.words import UsageError, usage
 from poise.errors import FormatError
 
@@ -45,7 +45,7 @@ def estimate(
     frame: Literal["enu", "ned", "nwu"] = "enu",
     learned: Annotated[bool, Parameter(negative="")] = False,
     learned_over_time: Path | None = None,
-    learned_every: float = 1.0,
+    learned_every: float | None = None,
     save_learned: Path | None = None,
     json: Annotated[bool, Parameter(negative="")] = False,
     reading: Reading | None = None,
@@ -82,7 +82,7 @@ def estimate(
     learned_over_time
         The same as it was known over time: a table (.csv, .parquet) or a picture (.png, .svg, .pdf); a folder for several.
     learned_every
-        Seconds between the rows of that table.
+        Seconds between the rows of that table; 1 if not given.
     save_learned
         Keep what was learned (.json) for --start-from of the next recording of that sensor; a folder for several.
     json
@@ -99,7 +99,10 @@ def estimate(
         running.before()
         if (learned_over_time or save_learned) and not hasattr(running.build(), "learned"):
             usage(f"{running.method} learns nothing about the sensors; take --method self-calibrating")
-        if not 0.0 < learned_every < inf:
+        if learned_every is not None and learned_over_time is None:
+            usage("--learned-every goes with --learned-over-time FILE, the table that it is of")
+        every = 1.0 if learned_every is None else learned_every
+        if not 0.0 < every < inf:
             usage(f"--learned-every {learned_every}: expected seconds above 0")
         over_time = "--learned-over-time"
         tables = targets(files, learned_over_time, ".learned.csv", _OVER_TIME, over_time) if learned_over_time else {}
@@ -121,7 +124,7 @@ def estimate(
             attitude = running.estimate(
                 recording,
                 progress=lambda done: tell("estimating", 0.2 + 0.6 * done / n),
-                learning=learned_every if tables else None,
+                learning=every if tables else None,
             )
             result = _finished(
                 file, recording, attitude.to(frame), outputs[file], format, pictures.get(file), running.offline, tell
@@ -257,9 +260,9 @@ def _apart(*places: Mapping[Path, Path]) -> None:
     """Raises :class:`UsageError` where two results would be written to one file."""
     taken: set[Path] = set()
     for place in (place for each in places for place in each.values()):
-        if place.resolve() in taken:
+        if really(place) in taken:
             usage(f"two results would both be written to {place}; give them two names")
-        taken.add(place.resolve())
+        taken.add(really(place))
 
 
 def _report(results: list[dict[str, Any]], method: str) -> None:

@@ -67,5 +67,6 @@ def making(path: Path) -> Iterator[Path]:
 
 def _beside(path: Path) -> Path:
     """A name that no file has; whatever the length of *path*'s own, within the 255 bytes that file systems allow."""
-    start = os.fsencode(path.name)[:100].decode("utf-8", "ignore")
+    start = os.fsencode(path.name)[:100].decode("utf-8", "ignore")  # of whole characters
+    start = os.fsdecode(start.encode("utf-8"))  # as the system has it, which may know ASCII only
     return path.with_name(f".{start}.{secrets.token_hex(4)}.part")
