@@ -12,6 +12,7 @@ from cyclopts import Parameter
 from poise.cli import show
 from poise.cli.options import Reading, Running
 from poise.cli.targets import PICTURES, really, targets
+from poise.cli.validity import WORTH_SAYING, none_valid, validity
 from poise.cli.words import UsageError, usage
 from poise.errors import FormatError
 
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from poise.data.recording import Recording
 
 _LARGE_IRON = 0.04  # of the field: what is pointed out
-_WORTH_SAYING = 0.9  # a smaller share of valid rows is pointed out
 _WRITABLE = (".parquet", ".csv", ".tum", ".txt", ".bag", ".mcap")
 _ROS = ("bag", "mcap", "ros2")
 _OVER_TIME = (".csv", ".parquet", *PICTURES)
@@ -141,7 +141,7 @@ def estimate(
     except FormatError as error:
         show.problem(error)
         return 1
-    useless = _useless(results)
+    useless = none_valid(results, "output")
     refused += useless
     if json:
         show.as_json({"method": running.method, "results": results, "errors": refused})
@@ -152,19 +152,6 @@ def estimate(
     for each in useless:
         show.problem(f"{each['file']}: {each['error']}")
     return 1 if refused else 0
-
-
-def _useless(results: list[dict[str, Any]]) -> list[dict[str, str]]:
-    """The files of which no row came out valid: what was written says so row by row, but it is no attitude."""
-    return [
-        {
-            "file": result["file"],
-            "error": f"no row is valid: {result['invalid_because'] or 'there is none'}; "
-            f"{result['output']} was written all the same, poise doctor shows what is wrong with the samples",
-        }
-        for result in results
-        if not result["valid"] > 0
-    ]
 
 
 def _finished(
@@ -178,10 +165,7 @@ def _finished(
     tell: Callable[[str, float], None],
 ) -> dict[str, Any]:
     """Write the attitude and its picture; the line of the summary."""
-    import numpy as np
-
     from poise.cli.proof import HeadingProof
-    from poise.data.flags import why_invalid
     from poise.estimators import judged_by
     from poise.evaluation import evaluate
     from poise.formats import write
@@ -203,8 +187,7 @@ def _finished(
         "rows": len(recording),
         "seconds": recording.duration,
         "rate_hz": recording.rate_hz,
-        "valid": float(attitude.valid.mean()) if len(attitude) else float("nan"),
-        "invalid_because": why_invalid(int(np.bitwise_or.reduce(attitude.flags))),
+        **validity(attitude),
         "heading": attitude.heading_reference,
         "heading_unproven": proof.unproven,
         "frame": attitude.frame,
@@ -286,7 +269,7 @@ def _report(results: list[dict[str, Any]], method: str) -> None:
         rows.append(row)
     show.table(f"{method}: attitudes", columns + [f"{judged} error °"] * with_truth, rows)
     for result in results:
-        if 0 < result["valid"] < _WORTH_SAYING:
+        if 0 < result["valid"] < WORTH_SAYING:
             show.note(
                 f"{Path(result['file']).name}: only {result['valid']:.1%} of the rows are valid; "
                 "the flags say why: poise.read_attitude(output).reasons()"

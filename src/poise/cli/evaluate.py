@@ -37,7 +37,8 @@ def evaluate(
 
     Each FILE is a recording, which is estimated first, or an attitude that poise wrote (in a ROS bag too). The reference
     is in the recording (as in the benchmark's files) or in --reference. RMSE in degrees, nothing aligned first, over the
-    moving rows that the reference (or else the recording) names; over all rows, which is said, where neither names any. A method without a heading of its own (tilt, gated) is judged by its inclination.
+    moving rows that the reference (or else the recording) names; over all rows, which is said, where neither names any.
+    A method without a heading of its own (tilt, gated) is judged by its inclination.
     A reference that only agrees if it is read as inverted, in NED or with w last is said to be so.
 
     Examples: `poise evaluate trials/*.mat -m adaptive-gain`; `poise evaluate walk.attitude.parquet --reference mocap.tum`
@@ -206,7 +207,9 @@ def _report(results: list[dict[str, Any]]) -> None:
 
     for result in results:
         if result["over"] == "all rows":
-            show.note(f"{Path(result['file']).name}: no rows are named as moving: the figures are over all that have a reference")
+            show.note(
+                f"{Path(result['file']).name}: no rows are named as moving: the figures are over all that have a reference"
+            )
         if result["missing"]:
             rows_ = counted(result["missing"], "row")
             show.note(f"{Path(result['file']).name}: of the rows that should count, {rows_} without an attitude")

@@ -238,7 +238,9 @@ class Running:
         given = [f.name for f in fields(self) if getattr(self, f.name) != getattr(usual, f.name)]
         if given:
             told = ", ".join(f"--{words.get(name, name).replace('_', '-')}" for name in given)
-            usage(f"{told}: {file} is an attitude already, which no method makes anew; leave that out, or give the recording")
+            usage(
+                f"{told}: {file} is an attitude already, which no method makes anew; leave that out, or give the recording"
+            )
 
     def before(self) -> Learned | None:
         """What --start-from holds; :class:`UsageError` where that is nothing to start from."""

@@ -104,7 +104,9 @@ def _as_options(text: str) -> str:
     names = {field.name.rstrip("_") for field in fields(Watching)} - {"config"}
     if re.split(r"\W", text, maxsplit=1)[0] not in names:
         return text
-    return "--" + text.replace("self_balancing", "--self-balancing").replace("look_ahead", "look-ahead").removeprefix("--")
+    return "--" + text.replace("self_balancing", "--self-balancing").replace("look_ahead", "look-ahead").removeprefix(
+        "--"
+    )
 
 
 def _angles(option: str, text: str) -> Any:
