@@ -14,7 +14,7 @@ from poise.cli import show
 from poise.cli.options import Reading, Running
 from poise.cli.targets import check_room, distinct
 from poise.cli.words import UsageError, usage
-from poise.errors import FormatError, RecordingError
+from poise.errors import FormatError, PoiseError, RecordingError
 
 if TYPE_CHECKING:
     from poise.data.attitude import Attitude
@@ -157,7 +157,7 @@ def _reference(path: Path, reading: Reading) -> Recording | Attitude:
     from poise.formats import read_attitude
 
     try:
-        return read_attitude(path)
+        return _with_moving(path, read_attitude(path), reading)
     except FormatError as no_attitude:
         try:
             recording = replace(reading, topic=None).read(path)  # a topic is that of FILE
@@ -166,6 +166,20 @@ def _reference(path: Path, reading: Reading) -> Recording | Attitude:
         if recording.truth is None:
             raise FormatError(f"{path}: holds no reference attitude") from None
         return recording
+
+
+def _with_moving(path: Path, attitude: Attitude, reading: Reading) -> Recording | Attitude:
+    """The *attitude* read from *path*, in the recording that names its moving rows where the file is one."""
+    from poise.formats import wrote_attitude
+
+    if wrote_attitude(path, limits=reading.limits()):
+        return attitude
+    try:  # as the file stands: units and axes that are asked for are those of FILE, and its samples do not matter here
+        recording = Reading(limit=reading.limit, force=True).read(path)
+    except PoiseError:
+        return attitude
+    same = recording.moving is not None and len(recording) == len(attitude)
+    return replace(recording, truth=attitude) if same else attitude
 
 
 def _mean(results: list[dict[str, Any]]) -> dict[str, float]:

@@ -76,9 +76,8 @@ def plot(
         show.table("", ["file", "drawn", "picture"], [[Path(r["file"]).name, r["drawn"], r["plot"]] for r in results])
         for result in results:
             if 0.0 < result["valid"] < WORTH_SAYING:
-                show.note(
-                    f"{Path(result['file']).name}: only {result['valid']:.1%} of the rows are valid: {result['invalid_because']}"
-                )
+                name, why = Path(result["file"]).name, result["invalid_because"]
+                show.note(f"{name}: only {result['valid']:.1%} of the rows are valid: {why}")
     for each in useless:
         show.problem(f"{each['file']}: {each['error']}")
     return 1 if refused else 0

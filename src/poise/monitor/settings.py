@@ -127,7 +127,9 @@ def _angle(name: str, value: Any) -> float:
     """Degrees of a range or a limit: what is no such angle is told in the unit that it was given in."""
     number = _number(name, value)
     if not 0.0 < number <= 90.0:
-        raise MethodError(f"{name}: expected degrees above 0, up to 90, found {number:g}")
+        raise MethodError(
+            f"{name}: expected degrees above 0, up to 90, found {number:g}" + " (an empty range)" * (number <= 0.0)
+        )
     return number
 
 

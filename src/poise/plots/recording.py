@@ -121,7 +121,14 @@ def _draw_steps(ax: Axes, time: Floats) -> None:
     name_panel(ax, "Step between stamps", "[ms]")
     steps = 1e3 * np.diff(time)
     keep = np.union1d(thinned(steps, ax), gaps(time) - 1)
-    ax.plot(time[1:][keep], steps[keep], color=INK, lw=0.8, label=f"usually {np.nanmedian(steps):.2f} ms")
+    ax.plot(
+        time[1:][keep],
+        steps[keep],
+        color=INK,
+        lw=0.8,
+        drawstyle="steps-pre",
+        label=f"usually {np.nanmedian(steps):.2f} ms",
+    )
     if np.nanmax(steps) > 30.0 * np.nanmedian(steps) > 0 and np.nanmin(steps) > 0:
         ax.set_yscale("log")
     else:
