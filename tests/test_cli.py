@@ -115,6 +115,60 @@ def test_evaluate_against_the_file_and_beside_it(folder: Path, capsys: pytest.Ca
     assert beside["heading"] == pytest.approx(inside["heading"], abs=0.3)
 
 
+def test_every_route_to_a_reference_gives_one_figure(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The moving rows that a reference names count, however it is given; where none are named, that is said."""
+    made = poise.read("made.csv")
+    assert made.truth is not None
+    moving = np.arange(len(made)) > len(made) // 2
+    poise.write(replace(made, moving=moving), "named.parquet")
+    poise.write(replace(made, truth=None, moving=None), "bare.csv")
+    poise.write(made.truth, "truth.tum")
+    assert run(["estimate", "bare.csv", "-m", "tilt", "-o", "estimate.parquet"]) == 0
+    capsys.readouterr()
+
+    def figure(*arguments: str) -> dict[str, Any]:
+        assert run(["evaluate", *arguments, "--json"]) == 0
+        found: dict[str, Any] = json.loads(capsys.readouterr().out)["results"][0]
+        return {key: found[key] for key in ("rmse_deg", "compared", "over")}
+
+    inside = figure("named.parquet", "-m", "tilt")
+    assert inside["over"] == "moving rows" and inside["compared"] <= moving.sum()
+    for route in (["bare.csv", "-m", "tilt"], ["estimate.parquet"], ["named.parquet", "-m", "tilt"]):
+        beside = figure(*route, "--reference", "named.parquet")
+        assert beside["compared"] == inside["compared"] and beside["over"] == "moving rows"
+        assert beside["rmse_deg"] == pytest.approx(inside["rmse_deg"], abs=1e-5)
+    # the recording names its moving rows, where the reference does not
+    assert figure("named.parquet", "-m", "tilt", "--reference", "truth.tum")["compared"] == inside["compared"]
+    assert figure("estimate.parquet", "--reference", "truth.tum")["over"] == "all rows"
+    assert run(["evaluate", "estimate.parquet", "--reference", "truth.tum"]) == 0
+    assert "estimate.parquet: no rows are named as moving" in capsys.readouterr().err
+
+
+def test_options_without_any_effect_are_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    refused(
+        capsys, "estimate", "made.csv", "--topic", "/imu", code=1, says="only ROS bags have topics, this is a text file"
+    )
+    (folder / "nothing.toml").write_text("# nothing\n[units]\n")
+    refused(capsys, "estimate", "made.csv", "--profile", "nothing.toml", code=2, says="nothing.toml: says nothing")
+
+
+def test_the_help_names_options_that_work(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["estimate", "--help"]) == 0
+    told = re.sub(r"[│\s]+", " ", capsys.readouterr().out)
+    (example,) = set(re.findall(r"--set (\w+=[\d.]+)", told))
+    assert run(["estimate", "made.csv", "--set", example, "-o", "out.parquet"]) == 0
+    assert run(["estimate", "--help"]) == 0
+    assert not re.search(r"poise {2,}estimate", capsys.readouterr().out)
+
+
+def test_a_picture_of_no_valid_row_is_told(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    made = poise.read("made.csv")
+    nothing = np.full_like(made.acc, np.nan)
+    poise.write(made.with_samples(acc=nothing, gyr=nothing), "nan.csv")
+    assert run(["plot", "nan.csv", "-m", "tilt"]) == 1
+    assert "nan.csv: no row is valid" in capsys.readouterr().err and Path("nan.png").exists()
+
+
 @pytest.mark.parametrize("method", ["tilt", "gated"])
 def test_a_method_without_heading_is_judged_by_inclination(
     method: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
@@ -208,7 +262,9 @@ def test_sniff_says_what_it_is(folder: Path, capsys: pytest.CaptureFixture[str])
         (["estimate", "made.csv", "./made.csv"], "twice"),
         (["estimate", "made.csv", "--units", "deg"], "pairs such as"),
         (["methods", "kalman"], "no method"),
-        (["evaluate", "made.csv", "made.csv", "--plot", "a.png"], "one at a time"),
+        (["evaluate", "made.csv", "other.csv", "--plot", "a.png"], "one at a time"),
+        (["evaluate", "made.csv", "./made.csv"], "twice"),
+        (["estimate", "made.csv", "--learned-every", "2"], "goes with --learned-over-time"),
         (["fly"], "fly"),
         (["estimate", "made.csv", "--remap", "x x z"], "each of x, y, z"),
         (["estimate", "made.csv", "--units", "foo=s"], "expected one of"),

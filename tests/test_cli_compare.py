@@ -53,7 +53,7 @@ def test_compare_json_with_good_and_bad_files(
 
 
 def test_compare_tells_and_draws(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["compare", "blind.csv", "-m", "two-stage", "-m", "gated", "--limit", "0.1", "--plot", "a.svg"]) == 0
+    assert run(["compare", "blind.csv", "-m", "two-stage", "-m", "gated", "--threshold", "0.1", "--plot", "a.svg"]) == 0
     captured = capsys.readouterr()
     assert "Distance from the consensus" in captured.out and "is off the consensus" in captured.out
     assert "neither can be blamed" in captured.err and "inclination only" in captured.err
@@ -64,11 +64,11 @@ def test_the_command_in_the_report_makes_it_again(folder: Path, monkeypatch: pyt
     monkeypatch.setattr("matplotlib.figure.Figure.savefig", blank)
     odd = folder / "it's $(odd).csv"
     (folder / "made.csv").rename(odd)
-    options = ["--rate", "100", "--remap=-y x z", "--limit", "3.123456789"]
+    options = ["--rate", "100", "--remap=-y x z", "--threshold", "3.123456789"]
     assert run(["compare", odd.name, "-m", "gated", *options, "--report=-a.html"]) == 0
     words = shlex.split(command_in(folder / "-a.html"))
     assert words[:3] == ["poise", "compare", odd.name] and "gated" in words and "--rate" in words
-    assert "--remap=-y x z" in words and words[words.index("--limit") + 1] == "3.123456789"
+    assert "--remap=-y x z" in words and words[words.index("--threshold") + 1] == "3.123456789"
     (folder / "-a.html").unlink()
     assert run(words[1:]) == 0 and (folder / "-a.html").exists()
 
@@ -82,7 +82,7 @@ def command_in(report: Path) -> str:
     [
         (["compare", "made.csv", "-m", "magic"], "no method 'magic'; there are"),
         (["compare", "made.csv", "--with", "magic"], "no peer or package called 'magic'"),
-        (["compare", "made.csv", "--limit", "0"], "--limit"),
+        (["compare", "made.csv", "--threshold", "0"], "--threshold"),
         (["compare", "made.csv", "--report", "made.csv"], r"ending in .html"),
         (["compare", "made.csv", "blind.csv", "--plot", "a.png"], "give a folder"),
         (["compare", "made.csv", "made.csv"], "given twice"),

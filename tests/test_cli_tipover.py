@@ -152,8 +152,15 @@ def test_an_attitude_is_judged_without_specific_force(here: Path, capsys: pytest
         (["--range", "wide"], "--range 'wide': expected degrees"),
         (["--range", "ahead=3"], "range.ahead"),
         (["--range", "50"], "beyond the largest self-balancing angle"),
-        (["--dwell", "-1"], "TipOver.dwell"),
-        (["--dwell", "nan"], "TipOver.dwell"),
+        (["--dwell", "-1"], "--dwell: expected 0 to inf s, found -1"),
+        (["--dwell", "nan"], "--dwell: expected a number (s)"),
+        (["--range", "200"], "--range: expected degrees above 0, up to 90, found 200"),
+        (["--range", "left=120"], "--range.left: expected degrees above 0, up to 90, found 120"),
+        (["--impact", "181"], "--impact: expected 0 to 180 degrees, found 181"),
+        (["--hysteresis", "-1"], "--hysteresis: expected 0 degrees or more, found -1"),
+        (["--range", "2"], "--hysteresis: 3° leaves nothing of the range forward, 2°"),
+        (["--self-balancing", "85"], "comes before the largest self-balancing angle"),
+        (["--tare", "-5,2"], "--tare -5,2: expected START,END"),
         (["--mount", "x y"], "axes 'x y'"),
         (["--tare", "5"], "--tare 5: expected START,END"),
         (["--tare", "5,2"], "the start first"),
@@ -190,10 +197,57 @@ def test_a_bad_file_beside_a_good_one(here: Path, capsys: pytest.CaptureFixture[
 def test_nothing_but_nan_is_unknown_throughout(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     table = np.full((300, 4), np.nan)
     poise.write(poise.Attitude.of(times(1.5), table), "nan.parquet")
-    assert run(["tipover", "nan.parquet", "--report", "--plot", "nan.png"]) == 0
-    assert "no alarm" in capsys.readouterr().err and Path("nan.png").exists()
-    (one,) = said(capsys, "nan.parquet")["results"]
+    assert run(["tipover", "nan.parquet", "--report", "--plot", "nan.png", "--falls", "none"]) == 1
+    out, err = capsys.readouterr()
+    assert "no alarm" not in err and "nan.parquet: nothing was judged" in err and Path("nan.png").exists()
+    assert "not judged" in out and "0.00 │" not in out
+    assert run(["tipover", "nan.parquet", "--falls", "none", "--json"]) == 1
+    found = json.loads(capsys.readouterr().out)
+    (one,) = found["results"]
+    assert one["judged"] == 0.0 and one["false_per_hour"] is None and found["errors"][0]["file"] == "nan.parquet"
     assert one["events"] == [] and one["seconds"]["upright"] == 0.0 and one["least_margin_deg"] is None
+
+
+def test_what_could_not_be_judged_is_told(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The second half of a recording has no sample: that no alarm came of it says nothing."""
+    time = times(20.0)
+    stands = recorded(motion(time, 0.0 * time))
+    gyr, acc = stands.gyr.copy(), stands.acc.copy()
+    gyr[len(time) // 2 :] = acc[len(time) // 2 :] = np.nan
+    poise.write(replace(stands, gyr=gyr, acc=acc, truth=None, moving=None), "half.csv")
+    assert run(["tipover", "half.csv", "-m", "tilt", "--falls", "none"]) == 0
+    err = capsys.readouterr().err
+    assert "half.csv: 4" in err and "% of it was not judged, and no alarm could come there" in err
+    recording = poise.read("half.csv")
+    judgement = judge(poise.estimate(poise.Tilt(), recording), recording)
+    known = 3600.0 * dry_run(judgement, []).hours
+    assert 9.0 < known < 12.0 and known == pytest.approx(
+        20.0 * said(capsys, "half.csv")["results"][0]["judged"], abs=0.1
+    )
+
+
+def test_a_false_alarm_has_no_ground(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["tipover", "fall.csv", "-m", "tilt", "--falls", "none", "--report"]) == 0
+    out = capsys.readouterr().out
+    assert "the ground as the truth has it" in out
+    (row,) = [line for line in out.splitlines() if line.rstrip().endswith("false │")]
+    assert [cell.strip() for cell in row.split("│")[3:5]] == ["-", "-"]
+    assert out.count("fallen ┃") == 1  # how long it was in each state is told once
+    (one,) = said(capsys, "fall.csv", "--falls", "none")["results"]
+    assert one["alarms"][0]["ground"] is None and one["alarms"][0]["true"] is False
+
+
+def test_options_may_begin_with_a_minus(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["tipover", "stands.csv", "-m", "tilt", "--mount", "-y x z"]) == 0
+    assert "stands" in capsys.readouterr().out
+
+
+def test_a_method_means_nothing_to_an_attitude(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["estimate", "stands.csv", "-m", "tilt", "-o", "stands.parquet"]) == 0
+    capsys.readouterr()
+    for command in (["tipover"], ["plot"], ["evaluate", "--reference", "stands.csv"]):
+        assert run([*command, "stands.parquet", "-m", "gated"]) == 2
+        assert "--method: stands.parquet is an attitude already" in capsys.readouterr().err
 
 
 def test_the_optical_reference_of_a_real_trial_agrees(capsys: pytest.CaptureFixture[str]) -> None:

@@ -16,10 +16,12 @@ from matplotlib.figure import Figure
 
 import poise
 from poise import plots
+from poise.comparison import compare
 from poise.data.flags import LOST, MAG_MISSING, REST
 from poise.errors import FormatError, PoiseError, RecordingError
 from poise.math import arrays
 from poise.plots.inline import inline_svg
+from poise.plots.lines import spans
 from poise.simulation import at_rest, forearm, measure
 
 
@@ -84,10 +86,78 @@ def test_stretches_are_shaded_and_named(attitude: poise.Attitude) -> None:
     assert shades(figure) == ["at rest", "not valid", "flagged: mag missing"]
     rest = figure.axes[2].collections[-3]
     spans = [(path.vertices[:, 0].min(), path.vertices[:, 0].max()) for path in rest.get_paths()]
-    np.testing.assert_allclose(spans, [(attitude.time[0], attitude.time[399])], atol=1e-9)
+    np.testing.assert_allclose(spans, [(attitude.time[0], attitude.time[400])], atol=1e-9)
     assert shades(plots.attitude_figure(replace(attitude, flags=np.zeros_like(flags)))) == []
     still = measure(at_rest(duration=5.0))
     assert "at rest" in shades(plots.attitude_figure(poise.estimate(poise.TwoStage(), still)))
+
+
+def without_the_middle(recording: poise.Recording, long: float) -> poise.Recording:
+    """The rows of the first and of the last third, with a silence of *long* seconds more between them."""
+    n = len(recording)
+    rows = np.r_[0 : n // 3, 2 * n // 3 : n]
+    time = recording.time[rows] + long * (rows > n // 2)
+    return poise.Recording(time, recording.gyr[rows], recording.acc[rows], recording.mag[rows], name="a gap")
+
+
+def crosses(xs: np.ndarray, ys: np.ndarray, middle: float) -> bool:
+    """Whether a line of these points goes over the time *middle*."""
+    return bool((((xs[:-1] < middle) & (xs[1:] > middle)) & np.isfinite(ys[:-1]) & np.isfinite(ys[1:])).any())
+
+
+@pytest.mark.parametrize("long", [0.0, 1e9])
+def test_nothing_is_drawn_over_a_gap(recording: poise.Recording, long: float) -> None:
+    gapped = without_the_middle(recording, long)
+    middle = float(gapped.time[len(gapped) // 2 - 1 : len(gapped) // 2 + 1].mean())
+    methods = {"a": poise.TwoStage(), "b": poise.Tilt()}
+    attitude = poise.estimate(poise.TwoStage(), gapped)
+    attitude = replace(attitude, flags=np.full(len(attitude), REST, np.uint32))
+    figures = [
+        plots.recording_figure(gapped, attitude),
+        plots.attitude_figure(attitude, gapped),
+        plots.comparison_figure(compare(gapped, methods)),
+        plots.diagnosis_figure(poise.diagnose(gapped)),
+    ]
+    for figure in figures:
+        for ax in figure.axes:
+            if ax.get_title(loc="left").startswith(("Step", "Misfit")):
+                continue
+            for line in ax.lines:
+                assert not crosses(np.asarray(line.get_xdata()), np.asarray(line.get_ydata()), middle), line.get_label()
+            for area in ax.collections:  # bands, and what is shaded
+                for path in area.get_paths():
+                    x = path.vertices[:, 0]
+                    assert not x.min() < middle < x.max(), area.get_label()
+
+
+def test_states_in_turn_meet_and_end_at_gaps() -> None:
+    time = np.r_[0.0:5.0:0.1, 20.0:25.0:0.1]
+    first = time < 2.0
+    (a,), b = spans(time, first), spans(time, ~first)
+    assert a[0] == 0.0 and sum(a) == pytest.approx(b[0][0])  # no slit between them
+    assert [round(sum(each), 6) for each in b] == [4.9, 24.9] and len(b) == 2
+
+
+def test_a_spike_is_cut_off_and_told(recording: poise.Recording) -> None:
+    acc, gyr = recording.acc.copy(), recording.gyr.copy()
+    gyr[10, 0], acc[20, 1] = 1e6, 1e15
+    _, ax, *_ = axes = plots.recording_figure(recording.with_samples(gyr=gyr, acc=acc)).axes
+    assert "too large to be drawn" in ax.get_title(loc="left") and ax.get_ylim()[1] < 100.0
+    assert "cut off: up to 5.73e+07" in axes[0].get_title(loc="left") and axes[0].get_ylim()[1] < 2e4
+    huge = plots.recording_figure(recording.with_samples(acc=np.full_like(acc, 1e308)))
+    assert "too large" in huge.axes[1].get_title(loc="left")
+    huge.canvas.draw()
+
+
+def test_a_method_without_a_heading_is_shown_by_its_inclination(recording: poise.Recording) -> None:
+    estimate = poise.estimate(poise.Tilt(), recording)
+    errors = poise.evaluate(estimate, recording)
+    for figure in (plots.attitude_figure(estimate, recording), plots.recording_figure(recording, estimate)):
+        told = [text.get_text() for text in figure.texts]
+        assert any(f"RMSE of the inclination {errors.rmse_deg().inclination:.2f}°" in text for text in told)
+        assert not any("heading" in text for text in told)
+        error = figure.axes[-1]
+        assert {"heading", "total"}.isdisjoint(named(error)) and "inclination" in named(error)
 
 
 def test_a_long_recording_is_thinned_with_its_peaks() -> None:

@@ -101,10 +101,8 @@ def evaluate(attitude: Attitude, recording: Recording | Attitude) -> Errors:
     if not isinstance(attitude, Attitude):
         raise RecordingError(f"expected an Attitude to evaluate, found {type(attitude).__name__}")
     attitude, truth = attitude.to("enu"), truth.to("enu")
-    moving = recording.moving if isinstance(recording, Recording) else None
+    moving = moving_rows(recording, attitude.time) if isinstance(recording, Recording) else None
     if not _same_rows(truth.time, attitude.time):
-        if moving is not None and isinstance(recording, Recording):
-            moving = moving[_nearest(recording.time, attitude.time)]
         truth = truth.resample(attitude.time)
     error = arrays.multiply(attitude.quat, arrays.conjugate(truth.quat))
     w, x, y, z = np.abs(error.T)
@@ -120,6 +118,13 @@ def evaluate(attitude: Attitude, recording: Recording | Attitude) -> Errors:
         counted=np.asarray(should & known),
         missing=int(np.sum(should & ~known)),
     )
+
+
+def moving_rows(reference: Recording, time: Floats) -> NDArray[np.bool_] | None:
+    """(n,) whether the rows of *time* count: as the reference's row nearest to each does; None where it does not say."""
+    if reference.moving is None or _same_rows(reference.time, time):
+        return reference.moving
+    return np.asarray(reference.moving[_nearest(reference.time, time)])
 
 
 def _same_rows(a: Floats, b: Floats) -> bool:

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import errno
+import io
 import os
 import sys
+from contextlib import suppress
+from pathlib import Path
 
 from cyclopts import App, CycloptsError, Parameter, UnusedCliTokensError
 
@@ -54,8 +58,17 @@ app.command(simulate)
 app.command(balance)
 
 
+_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF)
+
+
 def main() -> None:
     """Run the command line; exit code 0 fine, 1 some input bad, 2 usage."""
+    nowhere = Path(os.devnull)
+    sys.stdout = sys.stdout or nowhere.open("w", encoding="utf-8")  # closed by `>&-`: that is what was asked for
+    sys.stderr = sys.stderr or nowhere.open("w", encoding="utf-8")
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # names and units hold what a terminal of ASCII does not
+            stream.reconfigure(errors="backslashreplace")
     sys.exit(run(sys.argv[1:]))
 
 
@@ -76,8 +89,20 @@ def run(arguments: list[str]) -> int:
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:  # `poise … | head`: the reader has had enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _leave_stdout()
         return 0
+    except OSError as error:
+        if error.errno not in _FULL or error.filename is not None:
+            raise  # of a file: a fault of poise's, which has a message for each that a user can cause
+        _leave_stdout()
+        print(f"poise: stdout cannot be written: {error.strerror}; what was to be printed is lost", file=sys.stderr)
+        return 1
+
+
+def _leave_stdout() -> None:
+    """What is still to be written at the end goes nowhere, so that it fails no more."""
+    with suppress(OSError, ValueError):  # a stdout without a descriptor is a test's
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _version() -> str:

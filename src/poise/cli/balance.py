@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from poise.loops.balancing import BalanceLoop
 
 _PICTURES, _SIZE = 5, (420, 420)
+_MOST = 1e5  # of any number that is asked for
 _REFRESH = 0.1  # s of the world
 
 
@@ -64,7 +65,7 @@ def balance(
         A .wav file that the alarm is spoken into (needs espeak-ng).
     """
     try:
-        _checked(output, seed, push, every, duration, method, sensor, speed)
+        _checked(output, say, seed, push, every, duration, method, sensor, speed)
         os.environ.setdefault("GPIOZERO_PIN_FACTORY", "mock")
         return _run(output, seed, push, every, duration, method, sensor, speed, say)
     except UsageError as error:
@@ -76,8 +77,9 @@ def balance(
 
 
 def _checked(
-    output: Path | None, seed: int, push: float, every: float, duration: float, method: str, sensor: str, speed: float
-) -> None:
+    output: Path | None, say: Path | None, seed: int, push: float, every: float, duration: float, method: str,
+    sensor: str, speed: float,
+) -> None:  # fmt: skip
     from poise.cli.targets import check_room
     from poise.loops.eyes import check_method
     from poise.plots import FORMATS
@@ -95,14 +97,18 @@ def _checked(
         if output.suffix.lower().removeprefix(".") not in FORMATS:
             usage(f"--output: expected .png, .svg or .pdf, found {str(output)!r}")
         check_room(output)
+    if say is not None:
+        if say.suffix.lower() != ".wav":
+            usage(f"--say {say}: the speech is written as WAVE; expected a file ending in .wav")
+        check_room(say)
     for name, value, least in (
         ("push", push, 0.0),
         ("every", every, 1.0),
         ("duration", duration, 2.0),
         ("speed", speed, 0.0),
     ):
-        if not least <= value < 1e5:
-            usage(f"--{name}: expected {least:g} or more, found {value:g}")
+        if not least <= value < _MOST:
+            usage(f"--{name}: expected {least:g} or more, below {_MOST:g}, found {value:g}")
 
 
 def _run(

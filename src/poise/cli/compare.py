@@ -12,7 +12,7 @@ from cyclopts import Parameter
 
 from poise.cli import show
 from poise.cli.options import Reading
-from poise.cli.targets import PICTURES, check_room, distinct, targets
+from poise.cli.targets import PICTURES, check_room, distinct, really, targets
 from poise.cli.words import UsageError, usage
 from poise.errors import FormatError, PoiseError
 
@@ -37,7 +37,7 @@ def compare(
     *,
     method: Annotated[tuple[str, ...], Parameter(name=["--method", "-m"], negative="")] = (),
     with_: Annotated[str, Parameter(name="--with")] = "",
-    limit: float = 10.0,
+    threshold: float = 10.0,
     json: Annotated[bool, Parameter(negative="")] = False,
     plot: Path | None = None,
     report: Path | None = None,
@@ -60,7 +60,7 @@ def compare(
         A method to compare; repeat for more. All of them, with their defaults, if not given.
     with_
         Other packages' filters to compare with: `vqf,imufusion,ahrs`, or single ones such as `vqf-offline`.
-    limit
+    threshold
         Degrees from the reference, or from the consensus, beyond which an estimator is said to depart.
     json
         Print everything as JSON.
@@ -71,14 +71,14 @@ def compare(
     """
     reading = reading or Reading()
     try:
-        estimators = _chosen(method, with_, limit)
+        estimators = _chosen(method, with_, threshold)
         reading.as_arguments()
         pictures = targets(files, plot, ".comparison.png", PICTURES, "--plot") if plot else {}
         distinct(files)
         if report is not None:
             _check_report(report, [*files, *pictures.values()])
             check_room(report)
-        done, refused = run(files, estimators, reading, limit, pictures)
+        done, refused = run(files, estimators, reading, threshold, pictures)
     except UsageError as error:
         show.problem(error)
         return 2
@@ -89,7 +89,7 @@ def compare(
     written = None
     if report is not None and done:
         try:
-            write_report(report, done, refused, _command(files, method, with_, limit, reading, report))
+            write_report(report, done, refused, _command(files, method, with_, threshold, reading, report))
             written = report
         except PoiseError as error:
             problems.append({"file": str(report), "error": str(error)})
@@ -106,7 +106,7 @@ def run(
     files: Sequence[Path],
     estimators: tuple[Mapping[str, Any], Mapping[str, Any]],
     reading: Reading,
-    limit: float,
+    threshold: float,
     pictures: Mapping[Path, Path],
 ) -> tuple[list[Compared], list[dict[str, str]]]:
     """The comparison of every file that could be read, with its picture, and what was wrong with the others."""
@@ -121,7 +121,7 @@ def run(
             recording,
             methods,
             peers,
-            limit_deg=limit,
+            limit_deg=threshold,
             progress=lambda name, share: tell(f"{name} (a first run compiles it)", 0.1 + 0.8 * share),
         )
         if picture := pictures.get(file):
@@ -201,12 +201,12 @@ def tell(done: Sequence[Compared], report: Path | None) -> None:
         show.note(f"report in {report}")
 
 
-def _chosen(method: Sequence[str], with_: str, limit: float) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
+def _chosen(method: Sequence[str], with_: str, threshold: float) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
     from poise.comparison import methods_named
     from poise.peers import chosen
 
-    if not 0.0 < limit <= 180.0:
-        usage(f"--limit {limit}: expected degrees above 0, up to 180")
+    if not 0.0 < threshold <= 180.0:
+        usage(f"--threshold {threshold}: expected degrees above 0, up to 180")
     try:
         methods = methods_named(method or None)
     except PoiseError as error:
@@ -220,7 +220,7 @@ def _chosen(method: Sequence[str], with_: str, limit: float) -> tuple[Mapping[st
 def _check_report(report: Path, others: Sequence[Path]) -> None:
     if report.suffix.lower() not in (".html", ".htm") or report.is_dir():
         usage(f"--report {report}: expected a file ending in .html")
-    if report.resolve() in {other.resolve() for other in others}:
+    if really(report) in {really(other) for other in others}:
         usage(f"--report {report} is one of the recordings or pictures; nothing is written over them")
 
 
@@ -236,12 +236,12 @@ def again(files: Sequence[Path], options: Sequence[tuple[str, object]]) -> str:
 
 
 def _command(
-    files: Sequence[Path], method: Sequence[str], with_: str, limit: float, reading: Reading, report: Path
+    files: Sequence[Path], method: Sequence[str], with_: str, threshold: float, reading: Reading, report: Path
 ) -> str:
     """The command that makes the same report."""
     options: list[tuple[str, object]] = [("--method", name) for name in method]
     options += [("--with", with_)] if with_ else []
-    options += [("--limit", limit)] if limit != 10.0 else []
+    options += [("--threshold", threshold)] if threshold != 10.0 else []
     found = ((f"--{option.name}", getattr(reading, option.name)) for option in fields(reading))
     options += [(name, value) for name, value in found if value not in (None, False, True)]
     options += [("--force", "")] if reading.force else []

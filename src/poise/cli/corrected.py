@@ -200,6 +200,8 @@ def _loaded(path: Path) -> dict[str, dict[str, Any]]:
         usage(f"--profile {path}: cannot be read: {problem.strerror or problem}")
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
         usage(f"--profile {path}: is no TOML ({problem}); {example}")
+    if not any(found.values()):
+        usage(f"--profile {path}: says nothing; {example}")
     for table, values in found.items():
         if table not in _TABLES:
             usage(f"--profile {path}: no table [{table}] is known; {example}")

@@ -11,7 +11,7 @@ from cyclopts import Parameter
 
 from poise.cli import corrected, show
 from poise.cli.options import Reading
-from poise.cli.targets import PICTURES, check_room, distinct
+from poise.cli.targets import PICTURES, check_room, distinct, really
 from poise.cli.words import UsageError, usage
 from poise.errors import FormatError
 
@@ -201,7 +201,7 @@ def _check_targets(files: list[Path], save_profile: Path | None, sheet: Path | N
         if ending in PICTURES and len(files) != 1:
             usage(f"--sheet {sheet} is one picture, for {len(files)} files; a .html holds them all")
     for place in filter(None, (save_profile, sheet)):
-        if place.resolve() in inputs:
+        if really(place) in inputs:
             usage(f"{place} is one of the recordings; nothing is written over an input")
         check_room(place)
 

@@ -11,7 +11,8 @@ from cyclopts import Parameter
 
 from poise.cli import show
 from poise.cli.options import Reading, Running
-from poise.cli.targets import PICTURES, targets
+from poise.cli.targets import PICTURES, really, targets
+from poise.cli.validity import WORTH_SAYING, none_valid, validity
 from poise.cli.words import UsageError, usage
 from poise.errors import FormatError
 
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from poise.data.recording import Recording
 
 _LARGE_IRON = 0.04  # of the field: what is pointed out
-_WORTH_SAYING = 0.9  # a smaller share of valid rows is pointed out
 _WRITABLE = (".parquet", ".csv", ".tum", ".txt", ".bag", ".mcap")
 _ROS = ("bag", "mcap", "ros2")
 _OVER_TIME = (".csv", ".parquet", *PICTURES)
@@ -45,7 +45,7 @@ def estimate(
     frame: Literal["enu", "ned", "nwu"] = "enu",
     learned: Annotated[bool, Parameter(negative="")] = False,
     learned_over_time: Path | None = None,
-    learned_every: float = 1.0,
+    learned_every: float | None = None,
     save_learned: Path | None = None,
     json: Annotated[bool, Parameter(negative="")] = False,
     reading: Reading | None = None,
@@ -82,7 +82,7 @@ def estimate(
     learned_over_time
         The same as it was known over time: a table (.csv, .parquet) or a picture (.png, .svg, .pdf); a folder for several.
     learned_every
-        Seconds between the rows of that table.
+        Seconds between the rows of that table; 1 if not given.
     save_learned
         Keep what was learned (.json) for --start-from of the next recording of that sensor; a folder for several.
     json
@@ -99,7 +99,10 @@ def estimate(
         running.before()
         if (learned_over_time or save_learned) and not hasattr(running.build(), "learned"):
             usage(f"{running.method} learns nothing about the sensors; take --method self-calibrating")
-        if not 0.0 < learned_every < inf:
+        if learned_every is not None and learned_over_time is None:
+            usage("--learned-every goes with --learned-over-time FILE, the table that it is of")
+        every = 1.0 if learned_every is None else learned_every
+        if not 0.0 < every < inf:
             usage(f"--learned-every {learned_every}: expected seconds above 0")
         over_time = "--learned-over-time"
         tables = targets(files, learned_over_time, ".learned.csv", _OVER_TIME, over_time) if learned_over_time else {}
@@ -121,7 +124,7 @@ def estimate(
             attitude = running.estimate(
                 recording,
                 progress=lambda done: tell("estimating", 0.2 + 0.6 * done / n),
-                learning=learned_every if tables else None,
+                learning=every if tables else None,
             )
             result = _finished(
                 file, recording, attitude.to(frame), outputs[file], format, pictures.get(file), running.offline, tell
@@ -138,7 +141,7 @@ def estimate(
     except FormatError as error:
         show.problem(error)
         return 1
-    useless = _useless(results)
+    useless = none_valid(results, "output")
     refused += useless
     if json:
         show.as_json({"method": running.method, "results": results, "errors": refused})
@@ -149,19 +152,6 @@ def estimate(
     for each in useless:
         show.problem(f"{each['file']}: {each['error']}")
     return 1 if refused else 0
-
-
-def _useless(results: list[dict[str, Any]]) -> list[dict[str, str]]:
-    """The files of which no row came out valid: what was written says so row by row, but it is no attitude."""
-    return [
-        {
-            "file": result["file"],
-            "error": f"no row is valid: {result['invalid_because'] or 'there is none'}; "
-            f"{result['output']} was written all the same, poise doctor shows what is wrong with the samples",
-        }
-        for result in results
-        if not result["valid"] > 0
-    ]
 
 
 def _finished(
@@ -175,10 +165,7 @@ def _finished(
     tell: Callable[[str, float], None],
 ) -> dict[str, Any]:
     """Write the attitude and its picture; the line of the summary."""
-    import numpy as np
-
     from poise.cli.proof import HeadingProof
-    from poise.data.flags import why_invalid
     from poise.estimators import judged_by
     from poise.evaluation import evaluate
     from poise.formats import write
@@ -200,8 +187,7 @@ def _finished(
         "rows": len(recording),
         "seconds": recording.duration,
         "rate_hz": recording.rate_hz,
-        "valid": float(attitude.valid.mean()) if len(attitude) else float("nan"),
-        "invalid_because": why_invalid(int(np.bitwise_or.reduce(attitude.flags))),
+        **validity(attitude),
         "heading": attitude.heading_reference,
         "heading_unproven": proof.unproven,
         "frame": attitude.frame,
@@ -257,9 +243,9 @@ def _apart(*places: Mapping[Path, Path]) -> None:
     """Raises :class:`UsageError` where two results would be written to one file."""
     taken: set[Path] = set()
     for place in (place for each in places for place in each.values()):
-        if place.resolve() in taken:
+        if really(place) in taken:
             usage(f"two results would both be written to {place}; give them two names")
-        taken.add(place.resolve())
+        taken.add(really(place))
 
 
 def _report(results: list[dict[str, Any]], method: str) -> None:
@@ -283,7 +269,7 @@ def _report(results: list[dict[str, Any]], method: str) -> None:
         rows.append(row)
     show.table(f"{method}: attitudes", columns + [f"{judged} error °"] * with_truth, rows)
     for result in results:
-        if 0 < result["valid"] < _WORTH_SAYING:
+        if 0 < result["valid"] < WORTH_SAYING:
             show.note(
                 f"{Path(result['file']).name}: only {result['valid']:.1%} of the rows are valid; "
                 "the flags say why: poise.read_attitude(output).reasons()"

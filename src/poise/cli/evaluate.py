@@ -12,9 +12,9 @@ from cyclopts import Parameter
 
 from poise.cli import show
 from poise.cli.options import Reading, Running
-from poise.cli.targets import check_room
+from poise.cli.targets import check_room, distinct
 from poise.cli.words import UsageError, usage
-from poise.errors import FormatError, RecordingError
+from poise.errors import FormatError, PoiseError, RecordingError
 
 if TYPE_CHECKING:
     from poise.data.attitude import Attitude
@@ -36,8 +36,9 @@ def evaluate(
     """Compare attitudes with a reference, by the error definition of the BROAD benchmark.
 
     Each FILE is a recording, which is estimated first, or an attitude that poise wrote (in a ROS bag too). The reference
-    is in the recording (as in the benchmark's files) or in --reference. RMSE over the moving rows, in
-    degrees, nothing aligned first. A method without a heading of its own (tilt, gated) is judged by its inclination.
+    is in the recording (as in the benchmark's files) or in --reference. RMSE in degrees, nothing aligned first, over the
+    moving rows that the reference (or else the recording) names; over all rows, which is said, where neither names any.
+    A method without a heading of its own (tilt, gated) is judged by its inclination.
     A reference that only agrees if it is read as inverted, in NED or with w last is said to be so.
 
     Examples: `poise evaluate trials/*.mat -m adaptive-gain`; `poise evaluate walk.attitude.parquet --reference mocap.tum`
@@ -58,6 +59,7 @@ def evaluate(
     try:
         running.build()
         reading.as_arguments()
+        distinct(files)
         if plot and len(files) != 1:
             usage(f"--plot {plot} is one picture, for {len(files)} files; evaluate them one at a time")
         if plot:
@@ -91,25 +93,28 @@ def _evaluated(
 ) -> dict[str, Any]:
     from poise.conformance.references import misread
     from poise.data.attitude import Attitude
+    from poise.data.recording import Recording
     from poise.estimators import judged_by
     from poise.evaluation import evaluate as measure
 
     tell("reading", 0.0)
-    truth = None if reference is None else _reference(reference, reading)
+    given = None if reference is None else _reference(reference, reading)
     found = reading.read_either(file)
     recording: Recording | None = None
     if isinstance(found, Attitude):
         attitude = found
-        if truth is None:
+        running.means_nothing_to(file)
+        if given is None:
             raise RecordingError("is an attitude; give what to compare it with: --reference FILE")
     else:
-        recording = found if truth is None else replace(found, truth=truth.resample(found.time))
+        recording = found if given is None else _against(found, given)
         tell("estimating (a first run compiles the method)", 0.3)
         attitude = running.estimate(recording)
-    against = recording if recording is not None else truth
+    against = recording if recording is not None else given
     assert against is not None  # one of the two: an attitude without a reference was refused above
     errors = measure(attitude, against)
-    if recording is not None and recording.moving is not None and not recording.moving.any():
+    moving = against.moving if isinstance(against, Recording) else None
+    if moving is not None and not moving.any():
         raise RecordingError("no row moves, so none counts")
     if not errors.counted.any():
         raise RecordingError("no row has both an attitude and a reference; do their clocks agree?")
@@ -127,26 +132,54 @@ def _evaluated(
         "table_deg": errors.table(),
         "rows": len(attitude),
         "compared": int(errors.counted.sum()),
+        "over": "moving rows" if moving is not None else "all rows",
         "missing": errors.missing,
         "diverged": errors.diverged_by(judged),
         "reference": other.sentence if other else "",
     }
 
 
-def _reference(path: Path, reading: Reading) -> Attitude:
-    """The attitude in *path*, or the reference in the recording there."""
+def _against(recording: Recording, reference: Recording | Attitude) -> Recording:
+    """*recording* with that *reference*, and with the rows it says to count."""
+    from poise.data.recording import Recording
+    from poise.evaluation import moving_rows
+
+    if not isinstance(reference, Recording):
+        return replace(recording, truth=reference.resample(recording.time))
+    assert reference.truth is not None  # looked at where it was read
+    moving = moving_rows(reference, recording.time)
+    moving = recording.moving if moving is None else moving
+    return replace(recording, truth=reference.truth.resample(recording.time), moving=moving)
+
+
+def _reference(path: Path, reading: Reading) -> Recording | Attitude:
+    """The attitude in *path*, or the recording there: its reference counts, and the rows that it says are moving."""
     from poise.formats import read_attitude
 
     try:
-        return read_attitude(path)
+        return _with_moving(path, read_attitude(path), reading)
     except FormatError as no_attitude:
         try:
-            truth = reading.read(path).truth
+            recording = replace(reading, topic=None).read(path)  # a topic is that of FILE
         except FormatError:
             raise no_attitude from None
-        if truth is None:
+        if recording.truth is None:
             raise FormatError(f"{path}: holds no reference attitude") from None
-        return truth
+        return recording
+
+
+def _with_moving(path: Path, attitude: Attitude, reading: Reading) -> Recording | Attitude:
+    """The *attitude* read from *path*, in the recording that names its moving rows where the file is one."""
+    from poise.formats import wrote_attitude
+
+    if wrote_attitude(path, limits=reading.limits()):
+        return attitude
+    try:  # as the file stands: units and axes that are asked for are those of FILE, and its samples do not matter here
+        recording = Reading(limit=reading.limit, force=True).read(path)
+    except PoiseError:
+        return attitude
+    same = recording.moving is not None and len(recording) == len(attitude)
+    return replace(recording, truth=attitude) if same else attitude
 
 
 def _mean(results: list[dict[str, Any]]) -> dict[str, float]:
@@ -187,6 +220,10 @@ def _report(results: list[dict[str, Any]]) -> None:
     from poise.formats.names import counted
 
     for result in results:
+        if result["over"] == "all rows":
+            show.note(
+                f"{Path(result['file']).name}: no rows are named as moving: the figures are over all that have a reference"
+            )
         if result["missing"]:
             rows_ = counted(result["missing"], "row")
             show.note(f"{Path(result['file']).name}: of the rows that should count, {rows_} without an attitude")

@@ -6,7 +6,7 @@ import math
 import threading
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from datetime import date as Date
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 FILE = Group("What the file does not say", sort_key=1)
 METHOD = Group("The method", sort_key=2)
 
-_Dashed = Annotated[str | None, Parameter(allow_leading_hyphen=True)]
+Dashed = Annotated[str | None, Parameter(allow_leading_hyphen=True)]
 """An option whose value may begin with "-": "-x y z", "-33.9,151.2"."""
 
 
@@ -34,14 +34,14 @@ _Dashed = Annotated[str | None, Parameter(allow_leading_hyphen=True)]
 class Reading:
     """How to read files; what a file says itself needs no option."""
 
-    columns: _Dashed = None
+    columns: Dashed = None
     """Names for a file without a header, in order: `time,gx,gy,gz,ax,ay,az,mx,my,mz`, with units if you like
     (`gx[deg/s]`), `-` for a column to skip; or names for single columns: `hx=mag_x,hy=mag_y,hz=mag_z,temp=-`."""
 
     units: str | None = None
     """Units the header does not name: `gyr=deg/s,acc=g,time=ms`."""
 
-    delimiter: _Dashed = None
+    delimiter: Dashed = None
     """What separates columns: `,` `;` `tab` `space`."""
 
     decimal: str | None = None
@@ -50,10 +50,10 @@ class Reading:
     rate: float | None = None
     """Samples per second, for a file without time stamps."""
 
-    topic: _Dashed = None
+    topic: Dashed = None
     """The Imu topic of a ROS bag that has several, or both topics: `/imu/data_raw,/imu/mag` (`-`: no magnetometer)."""
 
-    remap: _Dashed = None
+    remap: Dashed = None
     """Rename the sensor's axes: `--remap "y -x z"` makes x its y, y its -x, z its z; those of one sensor against the
     others', which may be a mirror image: `--remap "acc=y -x z,mag=-x y z"`."""
 
@@ -67,8 +67,8 @@ class Reading:
     """Go on with a recording whose units or axes are surely wrong."""
 
     limit: str | None = None
-    """What a file may hold: `rows=2e8,size=20GiB,columns=512,line=1MiB`; and `whole=1GiB`, the size above which `poise
-    estimate` works in chunks."""
+    """What a file may hold: `rows=2e8,size=20GiB,columns=512,line=1MiB`; and `whole=1GiB`, the size above which
+    `poise estimate` works in chunks."""
 
     def read(self, path: Path) -> Recording:
         """The recording in *path*, corrected as told. Raises :class:`RecordingError` where it is surely wrong even so."""
@@ -142,12 +142,12 @@ class Running:
     """One of those that `poise methods` lists."""
 
     set_: Annotated[tuple[str, ...], Parameter(name="--set", negative="")] = ()
-    """A parameter of the method: `--set mag_noise=0.2`; repeat for more. `poise methods METHOD` lists them."""
+    """A parameter of the method: `--set initial_iron=0.036`; repeat for more. `poise methods METHOD` lists them."""
 
     declination: float | None = None
     """Degrees from true to magnetic north, east positive: headings become true."""
 
-    place: _Dashed = None
+    place: Dashed = None
     """`LAT,LON` in degrees: looks the declination up in the world magnetic model, with --date."""
 
     date: str | None = None
@@ -230,6 +230,17 @@ class Running:
         if self.told_declination and attitude.heading_reference == "magnetic":  # a declination of zero is a declination
             attitude = replace(attitude, heading_reference="true")
         return attitude
+
+    def means_nothing_to(self, file: Path) -> None:
+        """Raises :class:`UsageError` where options of the method are given for *file*, which is an attitude already."""
+        usual = Running()
+        words = {"set_": "set", "rest_bias": "no-rest-bias"}
+        given = [f.name for f in fields(self) if getattr(self, f.name) != getattr(usual, f.name)]
+        if given:
+            told = ", ".join(f"--{words.get(name, name).replace('_', '-')}" for name in given)
+            usage(
+                f"{told}: {file} is an attitude already, which no method makes anew; leave that out, or give the recording"
+            )
 
     def before(self) -> Learned | None:
         """What --start-from holds; :class:`UsageError` where that is nothing to start from."""

@@ -91,10 +91,16 @@ def simulate(
 
 def _made(name: str, duration: float, facts: dict[str, Any], settings: tuple[str, ...]) -> World:
     """The world as asked for; :class:`UsageError` where it cannot be."""
+    from poise.formats.names import counted
     from poise.simulation import worlds
 
     if not 0.0 < duration <= 1e6:
         usage(f"--duration {duration}: expected seconds, above 0, at most 1e6")
+    if facts["rate"] > 0.0 and round(duration * facts["rate"]) < 2:
+        usage(
+            f"--duration {duration:g} at --rate {facts['rate']:g} makes {counted(round(duration * facts['rate']), 'row')}, "
+            f"expected 2 at least; give {2.0 / facts['rate']:g} s or more"
+        )
     if facts["seed"] < 0:
         usage(f"--seed {facts['seed']}: expected 0 or more")
     try:

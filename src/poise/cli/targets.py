@@ -29,9 +29,17 @@ def check_room(place: Path) -> None:
         raise FormatError(f"{place}: cannot be written: {folder}: {problem.strerror or problem}") from None
 
 
+def really(path: Path) -> Path:
+    """Where *path* is behind its links; itself where these run in a circle, which is told where it is opened."""
+    try:
+        return path.resolve()
+    except (OSError, RuntimeError):
+        return path.absolute()
+
+
 def distinct(files: Sequence[Path]) -> set[Path]:
     """Where *files* really are. Raises :class:`UsageError` for one that is given twice."""
-    inputs = {file.resolve() for file in files}
+    inputs = {really(file) for file in files}
     if len(inputs) < len(files):
         usage("a recording is given twice")
     return inputs
@@ -54,7 +62,7 @@ def targets(
     inputs = distinct(files)
     taken: dict[Path, Path] = {}
     for file, place in places.items():
-        if place.resolve() in inputs:
+        if really(place) in inputs:
             usage(f"{option} {place} is one of the recordings; nothing is written over an input")
         if place in taken:
             usage(f"{taken[place]} and {file} would both be written to {place}; give them two folders")

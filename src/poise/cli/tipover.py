@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from poise.data.recording import Recording
     from poise.monitor import Alarm, DryRun, Judgement, TipOver
 
+_NEARLY_ALL = 0.99  # of the time: a method settles first
 _MOST = 40  # events of a file that are printed
 
 
@@ -42,7 +43,8 @@ def tipover(
     not told from a fall: the specific force is not in it). The robot's axes are x right, y forward, z up; --mount and
     --tare say how the sensor sits on it.
 
-    Whether an alarm was right is told where the truth is known: by a reference in the recording, or by --falls.
+    Whether an alarm was right is told where the truth is known: by a reference in the recording, or by --falls. What could
+    not be judged is said; exit code 1 where nothing of a FILE could be.
 
     Examples: `poise tipover drive.csv --report --falls none`; `poise tipover log.csv -m tilt --range 15 --tare 0,5
     --plot moment.png`; `poise tipover logs/*.csv --config robot.toml --json`
@@ -76,6 +78,8 @@ def tipover(
         running.warm()
         results, refused = show.each(files, work)
         _check_falls(grounds, results)
+        unjudged = _unjudged(results)
+        refused += unjudged
     except UsageError as error:
         show.problem(error)
         return 2
@@ -86,7 +90,22 @@ def tipover(
         show.as_json({"results": [_document(result) for result in results], "errors": refused})
     elif results:
         _tell(results, report)
+    for each in unjudged:
+        show.problem(f"{each['file']}: {each['error']}")
     return 1 if refused else 0
+
+
+def _unjudged(results: list[dict[str, Any]]) -> list[dict[str, str]]:
+    """The files of which nothing was judged: that no alarm came of them says nothing."""
+    return [
+        {
+            "file": str(result["file"]),
+            "error": f"nothing was judged: in no row is the attitude known ({result['unknown_because']}); "
+            "poise doctor shows what is wrong with the samples",
+        }
+        for result in results
+        if not result["judgement"].judged.any()
+    ]
 
 
 def _falls(text: str | None) -> list[float] | None:
@@ -128,12 +147,13 @@ def _watched(
 ) -> dict[str, Any]:
     from poise.data.attitude import Attitude
     from poise.errors import RecordingError
-    from poise.monitor import dry_run, judge
+    from poise.monitor import dry_run, judge, why_unknown
 
     tell("reading", 0.0)
     found = reading.read_either(file)
     recording: Recording | None = None
     if isinstance(found, Attitude):
+        running.means_nothing_to(file)
         attitude = found
     else:
         recording = found
@@ -155,6 +175,7 @@ def _watched(
         "judgement": judgement,
         "outcome": outcome,
         "valid": float(attitude.valid.mean()),
+        "unknown_because": why_unknown(judgement, ~judgement.judged),
         "force": recording is not None,
         "plot": picture,
     }
@@ -171,6 +192,7 @@ def _document(result: dict[str, Any]) -> dict[str, Any]:
         "plot": result["plot"],
         "rows": len(judgement),
         "valid": result["valid"],
+        "judged": _share(judgement),
         "seconds": {state.name.lower(): seconds for state, seconds in judgement.seconds().items()},
         "events": [_event(event) for event in judgement.events],
         "alarms": [
@@ -187,6 +209,15 @@ def _document(result: dict[str, Any]) -> dict[str, Any]:
         "least_margin_at": at,
         "mount_wxyz": list(judgement.tipover.mount),
     }
+
+
+def _share(judgement: Judgement) -> float:
+    """How much of the time was judged; of the rows, where these have no time."""
+    from poise.data.event import TipState
+
+    seconds = judgement.seconds()
+    whole = sum(seconds.values())
+    return 1.0 - seconds[TipState.UNKNOWN] / whole if whole > 0.0 else float(judgement.judged.mean())
 
 
 def _event(event: TipEvent) -> dict[str, Any]:
@@ -218,11 +249,13 @@ def _tell(results: list[dict[str, Any]], report: bool) -> None:
         outcome: DryRun = result["outcome"]
         margin, at = _closest(result["judgement"])
         said = [len(result["judgement"].events), len(outcome.alarms), margin, at]
-        rows.append([result["file"].name, result["method"], f"{result['valid']:.1%}", *said, *_verdict(outcome)])
+        share = _share(result["judgement"])
+        known = _verdict(outcome) if result["judgement"].judged.any() else ["not judged"] * 2 + [float("nan")]
+        rows.append([result["file"].name, result["method"], f"{share:.1%}", *said, *known])
     columns = [
         "file",
         "method",
-        "valid",
+        "judged",
         "events",
         "alarms",
         "least margin °",
@@ -242,6 +275,11 @@ def _tell(results: list[dict[str, Any]], report: bool) -> None:
         rows = [[r["file"].name, *(s[state] for state in states)] for r, s in zip(results, lasted, strict=True)]
         show.table("How long it was in each state, s", ["file", *(state.name.lower() for state in states)], rows)
     for result in results:
+        if 0.0 < (share := _share(result["judgement"])) < _NEARLY_ALL:
+            show.note(
+                f"{result['file'].name}: {1.0 - share:.1%} of it was not judged, and no alarm could come there: the attitude "
+                f"is not known ({result['unknown_because']})"
+            )
         if not result["force"]:
             show.note(
                 f"{result['file'].name}: an attitude without specific force: free fall and picking up are not told"
@@ -270,6 +308,8 @@ def _tell_events(result: dict[str, Any]) -> None:
 
 
 def _lead(alarm: Alarm) -> str:
+    if alarm.true is False:
+        return "-"
     if isnan(alarm.lead):
         return f"at least {alarm.at_least:.2f}" if isfinite(alarm.at_least) else "not known"
     return f"{alarm.lead:.2f}"
@@ -287,7 +327,7 @@ def _tell_alarms(result: dict[str, Any]) -> None:
         by = "the attitude judged" if outcome.falls is None else "the truth"
         columns = ["alarm at s", "direction", "ground at s", "lead s", "was"]
         show.table(f"{name}: alarms; the ground as {by} has it", columns, alarms[:_MOST])
-    else:
+    elif result["judgement"].judged.any():
         show.note(f"{name}: no alarm")
     for alarm in outcome.alarms[:_MOST]:
         if alarm.doubt and alarm.true is not True:
@@ -296,7 +336,3 @@ def _tell_alarms(result: dict[str, Any]) -> None:
             )
     for fall in outcome.missed[:_MOST]:
         show.note(f"{name}: missed: a fall at {fall.ground if isnan(fall.start) else fall.start:.2f} s")
-    seconds = result["judgement"].seconds()
-    show.table(
-        f"{name}: how long", ["state", "s"], [[state.name.lower(), s] for state, s in seconds.items() if s > 0.0]
-    )

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import re
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Group, Parameter
 
+from poise.cli.options import Dashed
 from poise.cli.words import pairs, usage
 from poise.errors import PoiseError
 
@@ -44,10 +46,10 @@ class Watching:
     impact: float | None = None
     """The lean at which the body hits the ground (80 unless told)."""
 
-    mount: str | None = None
+    mount: Dashed = None
     """Which of the sensor's axes point to the robot's right, forward and up: `--mount "y -x z"`."""
 
-    tare: str | None = None
+    tare: Dashed = None
     """`START,END`: seconds from the start of the recording in which the robot stands upright, without payload."""
 
     def build(self) -> TipOver:
@@ -69,7 +71,7 @@ class Watching:
         try:
             return checked(from_table(table, base))
         except PoiseError as error:
-            usage(str(error))
+            usage(_as_options(str(error)))
 
     def tared(self, tipover: TipOver, attitude: Attitude) -> TipOver:
         """With the slant of the sensor taken out. Raises :class:`RecordingError` where the robot does not stand there."""
@@ -95,6 +97,16 @@ class Watching:
         if not 0.0 <= start < end:
             usage(f"--tare {self.tare}: expected START,END in seconds, the start first")
         return start, end
+
+
+def _as_options(text: str) -> str:
+    """*text* about a parameter of the monitor, named as the option that sets it."""
+    names = {field.name.rstrip("_") for field in fields(Watching)} - {"config"}
+    if re.split(r"\W", text, maxsplit=1)[0] not in names:
+        return text
+    return "--" + text.replace("self_balancing", "--self-balancing").replace("look_ahead", "look-ahead").removeprefix(
+        "--"
+    )
 
 
 def _angles(option: str, text: str) -> Any:

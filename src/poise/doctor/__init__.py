@@ -72,7 +72,7 @@ def _bounded(recording: Recording) -> tuple[Recording, list[Finding]]:
         with np.errstate(invalid="ignore"):
             wild = ~(np.abs(values) < _LARGEST) & ~np.isnan(values)
         if wild.any():
-            bounded[sensor] = np.where(wild, np.nan, values)
+            bounded[sensor] = np.where(wild.any(axis=1)[:, None], np.nan, values)  # what is left of a row is no vector
             rows = int(wild.any(axis=1).sum())
             text = f"{rows} of {len(values)} samples of {sensor} are infinite or beyond {_LARGEST:g}: taken for missing"
             found.append(Finding(f"{sensor} samples", "likely", text))
@@ -91,6 +91,8 @@ def _of_units_and_axes(
     read_as: Mapping[str, str],
     guessed: Collection[str],
 ) -> tuple[list[Finding], Evidence | None]:
+    if instant := _instant(recording):
+        return [instant], None
     clock = units.of_time(recording, read_as.get("time", SI["time"]), guessed="time" in guessed)
     if empty := _empty(recording):
         return [empty, *([clock.finding] if clock.finding else [])], None
@@ -132,14 +134,32 @@ def _of_units_and_axes(
     return found, Evidence(tried.acc, tried.mag, verdict)
 
 
+def _instant(recording: Recording) -> Finding | None:
+    """One row with samples: an attitude, but nothing turns that would show whether it is right."""
+    if len(recording) != 1 or not (np.isfinite(recording.gyr).all() and _felt(recording)):
+        return None
+    text = (
+        "1 row: an attitude if the sensor rests there, and nothing more; units, axes and stamps cannot be told, record 30 s "
+        "in which it turns about all three axes"
+    )
+    return Finding("samples", "cannot-tell", text, decided=False)
+
+
+def _felt(recording: Recording) -> bool:
+    """Whether the accelerometer has a sample that is not zero."""
+    given = recording.acc[np.isfinite(recording.acc).all(axis=1)]
+    return bool(given.any())
+
+
 def _empty(recording: Recording) -> Finding | None:
     """The recording is none: no rows, or a gyroscope or accelerometer without samples."""
     what = ""
-    if len(recording) < 2:
-        what = f"{len(recording)} row{'s' * (len(recording) != 1)}"
-    elif absent := [_SENSORS[sensor] for sensor in ("gyr", "acc") if not np.isfinite(getattr(recording, sensor)).any()]:
+    whole = {sensor: np.isfinite(getattr(recording, sensor)).all(axis=1) for sensor in ("gyr", "acc")}
+    if not len(recording):
+        what = "0 rows"
+    elif absent := [_SENSORS[sensor] for sensor, known in whole.items() if not known.any()]:
         what = f"no usable sample of the {' and the '.join(absent)}"
-    elif not recording.acc[np.isfinite(recording.acc)].any():
+    elif not _felt(recording):
         what = "every sample of the accelerometer is zero"
     elif not (np.diff(recording.time[np.isfinite(recording.time)]) > 0).any():
         what = "no time stamp rises above the one before"

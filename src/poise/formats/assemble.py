@@ -14,6 +14,7 @@ from poise.formats.decisions import Decisions, stacked
 from poise.formats.held import Fresh
 from poise.formats.names import QUAT as QUAT_NAMES
 from poise.formats.names import SENSORS, counted, listed
+from poise.formats.saving import readable
 from poise.formats.table import Columns, Floats, Table
 from poise.math import arrays
 
@@ -55,7 +56,7 @@ class Assembler:
 
     def __init__(self, table: Table, made: Decisions, name: str, source: str, digest: str) -> None:
         self._table, self._made = table, made
-        none = np.empty((0, 3))
+        none, name, source = np.empty((0, 3)), readable(name), readable(source)
         self.empty = Recording(
             np.empty(0), none, none, none, gravity=made.gravity, name=name, source=source, source_hash=digest
         )

@@ -38,6 +38,7 @@ def read_attitude(path: str | os.PathLike[str], *, topic: str | None = None, lim
         raise FormatError(
             f"{where}: attitudes are read from Parquet, CSV, TUM text and ROS bags, this is a {kind} file"
         )
+    recognise.refuse_topic(where, kind, topic)
     try:
         if kind in bag.KINDS:
             time, quat, sigma = bag.orientation(path, options)

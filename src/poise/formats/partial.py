@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from poise.errors import FormatError
+from poise.formats.saving import shortened
 
 _STATE, _LOCK, _WHOLE = "state.npz", "lock", "whole"
 Arrays = dict[str, NDArray[Any]]
@@ -94,8 +95,7 @@ def partial(target: Path) -> Iterator[Partial]:
     Raises :class:`FormatError` where another process is at it, or the folder cannot be written to; then what was saved
     stays for the next time.
     """
-    name = os.fsencode(target.name)[:200].decode("utf-8", "ignore")
-    folder, owned = target.with_name(f"{name}.partial"), False
+    folder, owned = target.with_name(f"{shortened(target.name, 200)}.partial"), False
     try:
         folder.mkdir(exist_ok=True)
         with (folder / _LOCK).open("ab") as lock:

@@ -113,7 +113,9 @@ def _chunks(path: str | os.PathLike[str], options: Options, rows: int | None) ->
     source = str(path)
     path = Path(path)
     recognise.check(source, path, options.limits)
-    reader = _READERS[recognise.kind(source, path)]
+    kind = recognise.kind(source, path)
+    recognise.refuse_topic(source, kind, options.topic)
+    reader = _READERS[kind]
     with named(source):
         table = reader(path, options)
         return Chunks(source, path, table, _digest(path), options, rows)

@@ -101,6 +101,12 @@ def kind(where: str, path: Path) -> str:
     return "text"
 
 
+def refuse_topic(where: str, kind: str, topic: str | None) -> None:
+    """Raises :class:`FormatError` for a *topic* of a file that has none: what is asked for would be left out in silence."""
+    if topic is not None and kind not in ("ros1", "ros2", "mcap", "db3"):
+        raise FormatError(f"{where}: only ROS bags have topics, this is a {kind} file; leave --topic {topic!r} out")
+
+
 def _is_binary(head: bytes) -> bool:
     control = sum(byte < 32 and byte not in b"\t\n\v\f\r" for byte in head)
     return control > 0.1 * len(head) or not any(byte in b"0123456789,;\n\r\t " for byte in head)

@@ -67,5 +67,14 @@ def making(path: Path) -> Iterator[Path]:
 
 def _beside(path: Path) -> Path:
     """A name that no file has; whatever the length of *path*'s own, within the 255 bytes that file systems allow."""
-    start = os.fsencode(path.name)[:100].decode("utf-8", "ignore")
-    return path.with_name(f".{start}.{secrets.token_hex(4)}.part")
+    return path.with_name(f".{shortened(path.name, 100)}.{secrets.token_hex(4)}.part")
+
+
+def shortened(name: str, most: int) -> str:
+    """The beginning of a file's *name*, *most* bytes of whole characters, as the system has it: that may know ASCII only."""
+    return os.fsdecode(os.fsencode(name)[:most].decode("utf-8", "ignore").encode("utf-8"))
+
+
+def readable(name: str) -> str:
+    """A file's *name* as text that can be stored and drawn: bytes that are no UTF-8 are escaped."""
+    return name.encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")

@@ -269,6 +269,12 @@ def server_health(server: Server) -> tuple[bool, list[str]]:
     return not bad, bad + reasons
 
 
+_EXPECTED = {
+    None: "an object such as {}",
+    "methods": '{"methods": [{"name": "two-stage", "settings": {}}]}',
+}
+
+
 async def _object(request: Request, of_list: str | None = None) -> dict[str, Any]:
     """The JSON object of a request; a list stands for one whose only key is *of_list*."""
     body = b""
@@ -276,7 +282,11 @@ async def _object(request: Request, of_list: str | None = None) -> dict[str, Any
         body += piece
         if len(body) > 65536:
             raise HubError("more than 64 KiB")
-    asked = json.loads(body or b"{}")
+    try:
+        asked = json.loads(body or b"{}")
+    except (ValueError, RecursionError) as problem:
+        found = body[:60].decode("utf-8", "replace")
+        raise HubError(f"not JSON: {found!r} ({problem}); expected {_EXPECTED[of_list]}") from None
     if of_list is not None and isinstance(asked, list):
         asked = {of_list: asked}
     if not isinstance(asked, dict):

@@ -1,6 +1,6 @@
 """Tip-over monitor: judges from an attitude whether a body stands, tips over, lies, falls freely or is carried."""
 
-from poise.monitor.dry_run import Alarm, DryRun, Fall, dry_run
+from poise.monitor.dry_run import Alarm, DryRun, Fall, dry_run, why_unknown
 from poise.monitor.judging import Judgement, Monitor, judge
 from poise.monitor.parameters import checked, mounted, tared
 from poise.monitor.settings import from_table, read_settings
@@ -24,4 +24,5 @@ __all__ = [
     "mounted",
     "read_settings",
     "tared",
+    "why_unknown",
 ]

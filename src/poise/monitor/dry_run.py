@@ -39,7 +39,8 @@ class Alarm:
 
     event: TipEvent
     ground: float
-    """s, when the body was at the angle of impact: by the truth where it is known, else by the attitude judged; NaN"""
+    """s, when the body was at the angle of impact: by the truth where it is known, else by the attitude judged; NaN where
+    it did not get there, and of a false alarm"""
     true: bool | None
     """whether it fell; None where the truth is not known"""
     at_least: float = nan
@@ -62,7 +63,7 @@ class DryRun:
     """None where the truth is not known"""
     missed: list[Fall]
     hours: float
-    """in which the truth is known"""
+    """in which the truth is known and the attitude was judged: only then an alarm could be a false one"""
 
     @property
     def false_per_hour(self) -> float:
@@ -86,7 +87,7 @@ def dry_run(
         falls, known, hours = _falls(judgement, truth, recording)
     else:
         falls = [Fall(nan, float(at), float(at)) for at in sorted(truth)]
-        known, hours = np.ones(len(judgement), bool), _hours(judgement.time, np.ones(len(judgement), bool))
+        known, hours = np.ones(len(judgement), bool), _hours(judgement.time, judgement.judged)
     alarms, told = [], set()
     for event, seen in zip(events, own, strict=True):
         match = _fall_of(event.time, falls)
@@ -95,7 +96,7 @@ def dry_run(
             alarms.append(Alarm(event, falls[match].ground, True))
         else:
             near = np.abs(judgement.time - event.time) <= _LATE
-            alarms.append(replace(seen, true=False if known[near].all() else None))
+            alarms.append(Alarm(event, nan, False) if known[near].all() else seen)
     missed = [fall for i, fall in enumerate(falls) if i not in told and not _said(judgement, fall)]
     return DryRun(alarms, falls, missed, hours)
 
@@ -139,7 +140,7 @@ def _falls(
             after = (e.time for e in seen.events[i:] if e.state not in (*_DOWN, TipState.UNKNOWN))
             falls.append(Fall(event.time, _seen(seen, event).ground, next(after, float(np.nanmax(seen.time)))))
     known = seen.state != TipState.UNKNOWN
-    return falls, known, _hours(seen.time, known)
+    return falls, known, _hours(seen.time, known & judgement.judged)
 
 
 def on_rows(truth: Attitude, time: Floats) -> Attitude:
@@ -173,7 +174,12 @@ def _seen(judgement: Judgement, event: TipEvent) -> Alarm:
 
 def _why(judgement: Judgement, start: float, end: float) -> str:
     """Why the attitude was unknown in some of these seconds."""
-    flags = int(np.bitwise_or.reduce(judgement.flags[(judgement.time >= start) & (judgement.time <= end)]))
+    return why_unknown(judgement, np.asarray((judgement.time >= start) & (judgement.time <= end)))
+
+
+def why_unknown(judgement: Judgement, rows: NDArray[np.bool_]) -> str:
+    """Why nothing is known in some of these *rows* (n,)."""
+    flags = int(np.bitwise_or.reduce(judgement.flags[rows]))
     if flags & Flag.GYR_CLIPPED:  # what follows from it is no news
         return SENTENCES[Flag.GYR_CLIPPED]
     return why_invalid(flags) or "the stamps stood still, or were missing"

@@ -96,6 +96,11 @@ class Judgement:
     def __len__(self) -> int:
         return len(self.time)
 
+    @property
+    def judged(self) -> NDArray[np.bool_]:
+        """(n,) the rows of which anything is known."""
+        return np.asarray(self.state != TipState.UNKNOWN)
+
     def seconds(self) -> dict[TipState, float]:
         """How long each state lasted, s; a row's state lasts to the next row."""
         length = np.diff(self.time)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping
-from math import radians, tan
+from math import degrees, inf, isfinite, radians, tan
 from pathlib import Path
 from typing import Any
 
 from poise.errors import FormatError, MethodError, PoiseError
-from poise.estimators.parameters import parameters
+from poise.estimators.parameters import Parameter, parameters
 from poise.math.quaternions import IDENTITY
 from poise.math.vectors import Vec3, unit
 from poise.monitor.parameters import checked, level_at, mounted
@@ -47,8 +47,15 @@ def read_settings(path: str | Path) -> TipOver:
 def from_table(table: Mapping[str, Any], base: TipOver | None = None) -> TipOver:
     """The parameters of *base* with those in *table*, whose angles are in degrees: see ``docs/tipover.md``.
 
-    Raises :class:`MethodError` that names the field.
+    Raises :class:`MethodError` that names the field as it stands there, with its angles in degrees.
     """
+    try:
+        return _from_table(table, base)
+    except MethodError as problem:
+        raise MethodError(str(problem).replace("TipOver.", "")) from None
+
+
+def _from_table(table: Mapping[str, Any], base: TipOver | None) -> TipOver:
     for name in table:
         if name not in KNOWN:
             raise MethodError(f"{name}: no parameter of the monitor; there are {', '.join(KNOWN)}")
@@ -60,10 +67,9 @@ def from_table(table: Mapping[str, Any], base: TipOver | None = None) -> TipOver
     for parameter in parameters(TipOver):
         if parameter.name in table and parameter.name in _PLAIN:
             number = _number(parameter.name, table[parameter.name])
-            angle = parameter.unit in ("rad", "rad/s")
-            given[parameter.name] = (
-                radians(number) if angle else (table[parameter.name] if parameter.kind is int else number)
-            )
+            if parameter.unit in ("rad", "rad/s"):
+                number = radians(_bounded(parameter, number))
+            given[parameter.name] = table[parameter.name] if parameter.kind is int else number
     if "mount" in table:
         given["mount"] = mounted(table["mount"])
     if given.keys() & {"range", "self_balancing"}:
@@ -113,8 +119,28 @@ def _directions(name: str, value: Any, usual: Directions) -> Directions:
         for key in value:
             if key not in Directions._fields:
                 raise MethodError(f"{name}.{key}: no direction; there are {', '.join(Directions._fields)}")
-        return usual._replace(**{key: radians(_number(f"{name}.{key}", angle)) for key, angle in value.items()})
-    return Directions(*[radians(_number(name, value))] * 4)
+        return usual._replace(**{key: radians(_angle(f"{name}.{key}", angle)) for key, angle in value.items()})
+    return Directions(*[radians(_angle(name, value))] * 4)
+
+
+def _angle(name: str, value: Any) -> float:
+    """Degrees of a range or a limit: what is no such angle is told in the unit that it was given in."""
+    number = _number(name, value)
+    if not 0.0 < number <= 90.0:
+        raise MethodError(
+            f"{name}: expected degrees above 0, up to 90, found {number:g}" + " (an empty range)" * (number <= 0.0)
+        )
+    return number
+
+
+def _bounded(parameter: Parameter, number: float) -> float:
+    """*number*, degrees (a second), where the *parameter* may be that."""
+    low, high = degrees(parameter.low), degrees(parameter.high)
+    if not (low <= number <= high and isfinite(number)):
+        unit = "degrees a second" if parameter.unit == "rad/s" else "degrees"
+        allowed = f"{low:g} {unit} or more" if high == inf else f"{low:g} to {high:g} {unit}"
+        raise MethodError(f"{parameter.name}: expected {allowed}, found {number:g}")
+    return number
 
 
 def _number(name: str, value: Any) -> float:

@@ -7,10 +7,11 @@ from poise.plots.comparison import comparison_figure
 from poise.plots.diagnosis import diagnosis_figure
 from poise.plots.inline import inline_svg
 from poise.plots.learning import learning_figure
+from poise.plots.lines import POINTS
 from poise.plots.pictures import save_picture
 from poise.plots.recording import recording_figure
 from poise.plots.slewing import slewing_figure
-from poise.plots.style import FORMATS, POINTS, save_figure
+from poise.plots.style import FORMATS, save_figure
 from poise.plots.tipping import tip_over_figure
 
 __all__ = [

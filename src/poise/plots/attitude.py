@@ -12,7 +12,9 @@ from poise.data.attitude import Attitude
 from poise.data.flags import HEADING_ARBITRARY, HEADING_UNPROVEN, INVALID, REST, Flag, valid
 from poise.data.recording import Recording
 from poise.errors import RecordingError
+from poise.estimators import judged_by
 from poise.evaluation import Errors, evaluate
+from poise.plots.lines import fit, fit_degrees, line, spans
 from poise.plots.style import (
     BARE,
     BLUE,
@@ -29,15 +31,10 @@ from poise.plots.style import (
     clock,
     figure_class,
     finish,
-    fit,
-    fit_degrees,
     head,
     is_narrow,
     legend,
-    line,
     name_panel,
-    spans,
-    thinned,
 )
 
 if TYPE_CHECKING:
@@ -45,7 +42,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SHADES = _REST_SHADE, _INVALID_SHADE, _FLAG_SHADE, _UNPROVEN_SHADE = (
-    ("#7FA6C9", 0.22),
+    ("#8C8C70", 0.2),  # none of the lines' colours, whose bands lie on it
     ("#CC1F1F", 0.35),
     ("#E69F00", 0.9),
     ("#8A6BBE", 0.6),
@@ -73,11 +70,20 @@ def attitude_figure(
     axes: Sequence[Axes] = figure.subplots(4, 1, sharex=True, height_ratios=(1.0, 1.0, 0.8, 0.8))
     errors = draw_attitude(figure, axes, attitude, recording, errors)
     facts = [attitude.provenance.method] if attitude.provenance.method else []
-    if errors is not None and errors.counted.any():
-        rmse = errors.rmse_deg()
-        facts.append(f"RMSE {rmse.total:.2f}° (heading {rmse.heading:.2f}°, inclination {rmse.inclination:.2f}°)")
+    facts += error_facts(attitude, errors, parts=True)
     head(figure, title or (recording.name if recording is not None else "") or "Attitude", facts)
     return figure
+
+
+def error_facts(attitude: Attitude, errors: Errors | None, *, parts: bool = False) -> list[str]:
+    """The figure that the method answers for, with its *parts*; of a method without a heading that is its inclination."""
+    if errors is None or not errors.counted.any():
+        return []
+    rmse = errors.rmse_deg()
+    if judged_by(attitude.provenance.method) == "inclination":
+        return [f"RMSE of the inclination {rmse.inclination:.2f}°"]
+    told = f" (heading {rmse.heading:.2f}°, inclination {rmse.inclination:.2f}°)" if parts else ""
+    return [f"RMSE {rmse.total:.2f}°{told}"]
 
 
 def draw_attitude(
@@ -158,16 +164,18 @@ def _draw_tilt(ax: Axes, time: Floats, attitude: Attitude, angles: _Angles, refe
 
 def _draw_errors(ax: Axes, time: Floats, attitude: Attitude, errors: Errors) -> None:
     name_panel(ax, "Error", "against the reference [°]")
-    for name, colour in (("inclination", GREEN), ("heading", PURPLE), ("total", INK)):
+    headed = judged_by(attitude.provenance.method) == "total"
+    for name, colour in (("inclination", GREEN), *((("heading", PURPLE), ("total", INK)) if headed else ())):
         line(ax, time, np.degrees(getattr(errors, name)), name, colour)
     fit_degrees(ax, floor=0.0)
-    claimed = 3.0 * np.degrees(np.linalg.norm(attitude.sigma, axis=1))
+    sigma = attitude.sigma if headed else attitude.sigma[:, :2]
+    claimed = 3.0 * np.degrees(np.linalg.norm(sigma, axis=1))
     if np.isfinite(claimed).any():
-        rows, usual = thinned(claimed, ax), float(np.nanmedian(claimed))
+        usual, what = float(np.nanmedian(claimed)), "total" if headed else "inclination"
         above = (
             f" (about {usual:.0f}°, above the axis)" if usual > ax.get_ylim()[1] and not is_narrow(ax.figure) else ""
         )
-        ax.plot(time[rows], claimed[rows], color=QUIET, lw=1.1, ls=":", label=f"3σ of the total{above}")
+        line(ax, time, claimed, f"3σ of the {what}{above}", QUIET, style=":")
     legend(ax)
 
 

@@ -9,19 +9,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from poise.data.event import TipState
+from poise.plots.lines import line, spans
 from poise.plots.style import (
     BLUE,
     GREEN,
     INK,
     ORANGE,
+    PAPER,
     QUIET,
     figure_class,
     finish,
     head,
     legend,
-    line,
     name_panel,
-    spans,
 )
 
 if TYPE_CHECKING:
@@ -53,16 +53,16 @@ def balance_figure(run: BalanceRun, moments: list[tuple[float, NDArray[np.uint8]
     name_panel(lean, "Lean", "[°], forward")
     line(lean, time, np.degrees(run["estimate"]), "estimate", BLUE)
     line(lean, time, np.degrees(run["lean"]), "truth")
-    legend(lean)
+    _mark(axes, run)
+    legend(lean, 6)
     name_panel(speed, "Speed", "[m/s]")
     line(speed, time, run["speed"], "robot", GREEN)
     line(speed, time, run["wanted"], "wanted")
     legend(speed)
     name_panel(torque, "Torque of the wheels", "[N m]")
-    line(torque, time, run["left"], "left", ORANGE)
-    line(torque, time, run["right"], "right", BLUE)
+    line(torque, time, run["left"], "left", ORANGE, thick=3.0)  # driving straight both are the same
+    line(torque, time, run["right"], "right", BLUE, thick=0.9)
     legend(torque)
-    _mark(axes, run)
     finish(figure, axes, time, "time [s]")
     return figure
 
@@ -71,8 +71,9 @@ def _mark(axes: list[Axes], run: BalanceRun) -> None:
     """Pushes, the judgement, the cut and the impact."""
     time, state = run["time"], run["state"]
     for each, shade in _SHADES.items():
-        for start, length in spans(time, state == each):
-            axes[0].axvspan(start, start + length, color=shade, lw=0, zorder=0)
+        for i, (start, length) in enumerate(spans(time, state == each)):
+            name = "_" if i else each.name.lower()
+            axes[0].axvspan(start, start + length, color=shade, lw=0, zorder=0, label=name)
     for push in run.pushes:
         for ax in axes:
             ax.axvspan(push.time, push.time + push.duration, color=QUIET, alpha=0.35, lw=0)
@@ -80,17 +81,18 @@ def _mark(axes: list[Axes], run: BalanceRun) -> None:
     if run.cut is not None:
         for ax in axes:
             ax.axvline(run.cut.edge, color=ORANGE, lw=1.2)
-        _name(axes[0], run.cut.edge, "motors cut", "right", 0.75)
+        _name(axes[0], run.cut.edge, "motors cut", "right", 0.62)
     if run.fell:
         for ax in axes:
             ax.axvline(run.impact, color=INK, lw=1.2)
-        _name(axes[0], run.impact, "impact", "left", 0.5)
+        _name(axes[0], run.impact, "impact", "left", 0.34)
 
 
 def _name(ax: Axes, time: float, text: str, side: str, height: float = 0.9) -> None:
     ax.annotate(
         text, (time, height), xycoords=("data", "axes fraction"), xytext=(-4 if side == "right" else 4, 0),
-        textcoords="offset points", ha=side, fontsize=9, color=INK,
+        textcoords="offset points", ha=side, fontsize=9, color=INK, zorder=4.0,
+        bbox={"facecolor": PAPER, "alpha": 0.75, "lw": 0, "pad": 1.0},
     )  # fmt: skip
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from poise.comparison import Comparison, Run
 from poise.math import arrays
+from poise.plots.lines import FORCE, RATE, fit, samples
 from poise.plots.style import (
     BARE,
     BLUE,
@@ -21,12 +22,10 @@ from poise.plots.style import (
     clock,
     figure_class,
     finish,
-    fit,
     head,
     is_narrow,
     legend,
     name_panel,
-    thinned,
 )
 
 if TYPE_CHECKING:
@@ -75,29 +74,22 @@ def comparison_figure(comparison: Comparison, title: str = "", *, narrow: bool =
 
 def _draw_turning(ax: Axes, time: Floats, comparison: Comparison) -> None:
     name_panel(ax, "Turning [°/s]", "")
-    _plain_line(ax, time, np.degrees(arrays.length(comparison.recording.gyr)), INK, "angular rate")
-    fit(ax, least=10.0, floor=0.0)
+    samples(ax, time, np.degrees(arrays.length(comparison.recording.gyr)), "angular rate", INK)
+    fit(ax, least=10.0, floor=0.0, plausible=RATE)
     legend(ax)
 
 
 def _draw_strengths(ax: Axes, time: Floats, comparison: Comparison) -> None:
     recording = comparison.recording
     name_panel(ax, "Strength", "")
-    _plain_line(ax, time, arrays.length(recording.acc) / recording.gravity, BLUE, "specific force / g")
+    samples(ax, time, arrays.length(recording.acc) / recording.gravity, "specific force / g", BLUE)
     if recording.has_mag:
         field = arrays.length(recording.mag)
         field[~((field > 0) & np.isfinite(field))] = np.nan
         if np.isfinite(field).any():
-            _plain_line(ax, time, field / np.nanmedian(field), ORANGE, "field / its median")
-    fit(ax, least=0.5)
+            samples(ax, time, field / np.nanmedian(field), "field / its median", ORANGE)
+    fit(ax, least=0.5, plausible=FORCE / recording.gravity)
     legend(ax)
-
-
-def _plain_line(ax: Axes, time: Floats, values: Floats, colour: str, label: str) -> None:
-    known = np.isfinite(values) & np.isfinite(time)
-    stamps, shown = time[known], values[known]
-    rows = thinned(shown, ax)
-    ax.plot(stamps[rows], shown[rows], color=colour, lw=0.9, label=label)
 
 
 def _draw_strips(ax: Axes, time: Floats, runs: Sequence[Run], part: str, columns: int) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 from poise.doctor import Diagnosis
 from poise.doctor.turning import LAGS, WINDOW
 from poise.math import arrays
+from poise.plots.lines import FORCE, RATE, fit, samples
 from poise.plots.style import (
     BLUE,
     INK,
@@ -20,11 +21,9 @@ from poise.plots.style import (
     clock,
     figure_class,
     finish,
-    fit,
     head,
     legend,
     name_panel,
-    thinned,
 )
 
 if TYPE_CHECKING:
@@ -50,12 +49,10 @@ def diagnosis_figure(diagnosis: Diagnosis, title: str = "", *, narrow: bool = Fa
     name_panel(axes[2], "Specific force", "|f| [m/s²]")
     name_panel(axes[3], "Angular rate", "[°/s]")
     for ax, values, colour, name in ((axes[2], force, BLUE, "length"), (axes[3], rate, INK, "length")):
-        known = np.flatnonzero(np.isfinite(values) & np.isfinite(time))
-        keep = known[thinned(values[known], ax)]
-        ax.plot(time[keep], values[keep], color=colour, lw=0.9, label=name)
+        samples(ax, time, values, name, colour)
     axes[2].axhline(recording.gravity, color=ORANGE, lw=1.2, ls=(0, (4, 2)), zorder=3.0, label="gravity")
-    fit(axes[2], least=1.0)
-    fit(axes[3], least=10.0, floor=0.0)
+    fit(axes[2], least=1.0, plausible=FORCE)
+    fit(axes[3], least=10.0, floor=0.0, plausible=RATE)
     finish(figure, axes[:1], np.empty(0), "way to name the axes, the best first")
     finish(figure, axes[1:2], np.empty(0), f"window of {WINDOW:g} s")
     finish(figure, axes[2:], time, label)

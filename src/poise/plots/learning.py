@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from poise.data.learned import Learning
+from poise.plots.lines import fit, line
 from poise.plots.style import (
     BLUE,
     GREEN,
@@ -17,10 +18,8 @@ from poise.plots.style import (
     clock,
     figure_class,
     finish,
-    fit,
     head,
     legend,
-    line,
     name_panel,
 )
 
@@ -77,8 +76,7 @@ def _draw(ax: Axes, time: np.ndarray, learning: Learning, panel: _Panel) -> None
         if name in learning.names:
             column = learning.names.index(name)
             value, sigma = panel.factor * learning.values[:, column], panel.factor * learning.sigma[:, column]
-            ax.fill_between(time, value - sigma, value + sigma, color=colours[name], alpha=_PALE, lw=0, label="_")
-            line(ax, time, value, called, colours[name])
+            line(ax, time, value, called, colours[name], sigma, band="_", pale=_PALE)
     _fit(ax, learning, panel)
     ax.axhline(0.0, color="#999999", lw=0.6, zorder=1.0)
     legend(ax, len(panel.lines))

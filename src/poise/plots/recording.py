@@ -10,8 +10,10 @@ import numpy as np
 from poise.data.attitude import Attitude
 from poise.data.recording import Recording
 from poise.evaluation import Errors
+from poise.formats.names import counted
 from poise.math import arrays
-from poise.plots.attitude import draw_attitude
+from poise.plots.attitude import draw_attitude, error_facts
+from poise.plots.lines import FORCE, RATE, drawable, fit, gaps, samples, spans, thinned
 from poise.plots.style import (
     BLUE,
     GREEN,
@@ -24,19 +26,21 @@ from poise.plots.style import (
     clock,
     figure_class,
     finish,
-    fit,
     head,
     legend,
     name_panel,
-    spans,
-    thinned,
 )
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_SENSORS = (("gyr", "Gyroscope", "[°/s]"), ("acc", "Accelerometer", "[m/s²]"), ("mag", "Magnetometer", "[µT]"))
+_SENSORS = (  # with what is beyond every sensor's range; a magnetometer's unit may be any
+    ("gyr", "Gyroscope", "[°/s]", RATE),
+    ("acc", "Accelerometer", "[m/s²]", FORCE),
+    ("mag", "Magnetometer", "[µT]", 0.0),
+)
+_SPIKE = 1e3  # usual lengths of a field
 _UNEVEN = 0.05  # a step between stamps that differs by so much of the usual one is worth a panel
 _COUNTS = ("#E69F00", 0.9)
 
@@ -74,13 +78,13 @@ def recording_figure(
         finish(figure, axes[: len(panels)], time, "")
         errors = draw_attitude(figure, axes[len(panels) :], attitude, recording, errors)
         facts += [attitude.provenance.method] if attitude.provenance.method else []
-        facts += [f"RMSE {errors.rmse_deg().total:.2f}°"] if errors is not None and errors.counted.any() else []
+        facts += error_facts(attitude, errors)
     head(figure, title or recording.name or "Recording", facts)
     return figure
 
 
 def _panels(recording: Recording) -> list[str]:
-    found = [s for s, _, _ in _SENSORS if s != "mag" or recording.has_mag]
+    found = [s for s, *_ in _SENSORS if s != "mag" or recording.has_mag]
     steps = np.diff(recording.time)
     usual = np.median(steps) if len(steps) else np.nan
     uneven = usual > 0 and np.any(~(np.abs(steps / usual - 1.0) <= _UNEVEN))
@@ -89,40 +93,42 @@ def _panels(recording: Recording) -> list[str]:
 
 def _draw_sensor(ax: Axes, time: Floats, recording: Recording, sensor: str) -> None:
     values = getattr(recording, sensor)
-    name, unit = next((name, unit) for s, name, unit in _SENSORS if s == sensor)
+    _, name, unit, plausible = next(facts for facts in _SENSORS if facts[0] == sensor)
     values = np.degrees(values) if sensor == "gyr" else values
-    rows = np.flatnonzero(np.isfinite(values).all(axis=1) & np.isfinite(time))
-    share = len(rows) / max(len(time), 1)
-    name_panel(ax, name if share > 0.99 else f"{name} (a sample in {share:.0%} of the rows)", unit)
+    given = ~np.isnan(values).any(axis=1) & np.isfinite(time)
+    rows = np.flatnonzero(given & np.isfinite(drawable(values)).all(axis=1))
+    share, wild = len(rows) / max(len(time), 1), int(np.count_nonzero(given)) - len(rows)
+    if wild:
+        name += f" ({counted(wild, 'sample')} too large to be drawn)"
+    elif share <= 0.99:
+        name += f" (a sample in {share:.0%} of the rows)"
+    name_panel(ax, name, unit)
     if not len(rows):
         ax.text(0.5, 0.5, "no sample", transform=ax.transAxes, ha="center", va="center", color=QUIET)
         return
-    stamps, shown = _broken(time[rows], values[rows])
+    shown = values[rows]
+    length = arrays.length(shown)
     drawn = [(shown[:, i], axis, colour) for i, (axis, colour) in enumerate(zip("xyz", (BLUE, ORANGE, GREEN)))]  # noqa: B905
     if sensor != "gyr":
-        drawn.insert(0, (arrays.length(shown), "length", QUIET))
+        drawn.insert(0, (length, "length", QUIET))
     for column, axis, colour in drawn:
-        keep = thinned(column, ax)
-        ax.plot(stamps[keep], column[keep], color=colour, lw=1.0 if axis != "length" else 1.4, label=axis)
-    fit(ax, least=1.0)
+        samples(ax, time[rows], column, axis, colour, 1.0 if axis != "length" else 1.4)
+    fit(ax, least=1.0, plausible=plausible or _SPIKE * float(np.median(length)) or np.inf)
     legend(ax)
-
-
-def _broken(stamps: Floats, values: Floats) -> tuple[Floats, Floats]:
-    """The samples with a NaN row in every long silence, so that no line is drawn over it."""
-    steps = np.diff(stamps)
-    rising = steps[steps > 0]
-    if not len(rising):
-        return stamps, values
-    cuts = np.flatnonzero(steps > max(0.5, 5.0 * float(np.median(rising)))) + 1
-    return np.insert(stamps, cuts, stamps[cuts]), np.insert(values, cuts, np.nan, axis=0)
 
 
 def _draw_steps(ax: Axes, time: Floats) -> None:
     name_panel(ax, "Step between stamps", "[ms]")
     steps = 1e3 * np.diff(time)
-    keep = thinned(steps, ax)
-    ax.plot(time[1:][keep], steps[keep], color=INK, lw=0.8, label=f"usually {np.nanmedian(steps):.2f} ms")
+    keep = np.union1d(thinned(steps, ax), gaps(time) - 1)
+    ax.plot(
+        time[1:][keep],
+        steps[keep],
+        color=INK,
+        lw=0.8,
+        drawstyle="steps-pre",
+        label=f"usually {np.nanmedian(steps):.2f} ms",
+    )
     if np.nanmax(steps) > 30.0 * np.nanmedian(steps) > 0 and np.nanmin(steps) > 0:
         ax.set_yscale("log")
     else:

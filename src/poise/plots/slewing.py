@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from poise.plots.lines import line
 from poise.plots.style import (
     BLUE,
     GREEN,
@@ -18,7 +19,6 @@ from poise.plots.style import (
     finish,
     head,
     legend,
-    line,
     name_panel,
 )
 

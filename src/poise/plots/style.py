@@ -1,4 +1,4 @@
-"""What every picture shares: colours, lines thinned with their peaks, shaded stretches, axes and files."""
+"""What every picture shares: colours, titles, legends, the axis of time, and files. Its lines are those of `lines`."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from poise.errors import FormatError, PoiseError
+from poise.formats.saving import readable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-POINTS, NARROW_POINTS = 3000, 1000
-"""most points of a line, and of one in a narrow picture; longer recordings are thinned so that every peak stays"""
 NARROW = 4.4
 """in, the width of a picture for a phone"""
 FORMATS = ("png", "svg", "pdf")
@@ -74,69 +73,6 @@ def save_figure(figure: Figure, path: str | Path) -> None:
         beside.unlink(missing_ok=True)
 
 
-def line(
-    ax: Axes,
-    time: Floats,
-    values: Floats,
-    label: str,
-    colour: str = "",
-    width: Floats | None = None,
-    low: float | None = None,
-) -> None:
-    """A line with its band of ± *width* (n,); dashed, for a reference, without a *colour*.
-
-    With *low* the values are angles in degrees shown within [low, low + 360): they are thinned unwrapped, so that a
-    seam makes no peaks, and the line is broken there.
-    """
-    if low is None:
-        rows = thinned(values, ax)
-        shown = values[rows]
-    else:
-        whole, known = values.copy(), np.isfinite(values)
-        whole[known] = np.unwrap(values[known], period=360.0)
-        rows = thinned(whole, ax)
-        shown = (whole[rows] - low) % 360.0 + low
-        shown[np.abs(np.diff(shown, prepend=shown[:1])) > 180.0] = np.nan
-    if width is not None and np.isfinite(width).any():
-        half = width[rows]
-        told = any(band.get_label() == "±3σ" for band in ax.collections)
-        ax.fill_between(
-            time[rows], shown - half, shown + half, color=colour, alpha=0.2, lw=0, label="_" if told else "±3σ"
-        )
-    if colour:
-        ax.plot(time[rows], shown, color=colour, lw=1.3, label=label, zorder=3.0)
-    else:
-        ax.plot(time[rows], shown, color=INK, lw=1.2, ls=(0, (4, 2)), label=label, zorder=2.5)
-
-
-def thinned(values: Floats, ax: Axes) -> NDArray[np.intp]:
-    """The rows to draw of values (n,): all, or the lowest and the highest of each of many short stretches, in order."""
-    most = NARROW_POINTS if is_narrow(ax.figure) else POINTS
-    n, stretches = len(values), most // 2
-    if n <= most:
-        return np.arange(n)
-    size = -(-n // stretches)
-    padded = np.full(-(-n // size) * size, np.nan)
-    padded[:n] = values
-    table = padded.reshape(-1, size)
-    lowest = np.argmin(np.where(np.isnan(table), np.inf, table), axis=1)
-    highest = np.argmax(np.where(np.isnan(table), -np.inf, table), axis=1)
-    rows = np.sort(np.stack([lowest, highest], axis=1), axis=1) + size * np.arange(len(table))[:, None]
-    return np.minimum(rows.ravel(), n - 1)
-
-
-def spans(time: Floats, mask: Mask) -> list[tuple[float, float]]:
-    """Start and length, s, of the stretches where *mask* holds; those too close to tell apart on paper are one."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask & np.isfinite(time), [False]]).astype(np.int8)))
-    if not len(edges):
-        return []
-    whole = float(np.nanmax(time) - np.nanmin(time))
-    starts, ends = time[edges[0::2]], time[edges[1::2] - 1]
-    apart = np.concatenate([[True], starts[1:] - ends[:-1] > whole / 500.0])
-    starts, ends = starts[apart], ends[np.append(apart[1:], True)]
-    return [(float(a), max(float(b - a), whole / 1000.0)) for a, b in zip(starts, ends, strict=True)]
-
-
 def clock(time: Floats) -> tuple[Floats, str]:
     """The stamps as drawn, s, and the axis label: from the first stamp where they count from 1970."""
     known = time[np.isfinite(time)]
@@ -173,6 +109,7 @@ def head(figure: Figure, title: str, facts: Sequence[str] = ()) -> None:
     """The title, and what is worth saying beside it; a narrow picture stands in a page that says both."""
     if is_narrow(figure):
         return
+    title = readable(title)
     short = title if len(title) <= LONGEST_TITLE else title[: LONGEST_TITLE - 1] + "…"
     figure.suptitle(short, x=0.008, ha="left", fontsize=13, fontweight="bold", color=INK, parse_math=False)
     figure.text(0.993, 0.993, "  ·  ".join(facts), ha="right", va="top", fontsize=10.5, color=INK, parse_math=False)
@@ -190,25 +127,3 @@ def finish(figure: Figure, axes: Sequence[Axes], time: Floats, label: str) -> No
         axes[-1].set_xlim(float(known.min()), float(known.max()))
     axes[-1].set_xlabel(label, fontsize=9.5, color=INK, loc="left")
     figure.align_ylabels(list(axes))
-
-
-def fit(ax: Axes, least: float, floor: float | None = None) -> tuple[float, float]:
-    """Limits from the lines alone (a band may be as wide as it likes), at least *least* apart."""
-    values = np.concatenate([np.asarray(line.get_ydata(), float) for line in ax.lines])
-    values = values[np.isfinite(values)]
-    low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 0.0)
-    least = max(least, 1e-6 * max(abs(low), abs(high)))  # of a large number a small step is none
-    low, high = (low, high) if high - low > least else ((low + high - least) / 2, (low + high + least) / 2)
-    low = low if floor is None else floor
-    margin = 0.08 * (high - low)
-    limits = low - margin, high + margin
-    ax.set_ylim(*limits)
-    return limits
-
-
-def fit_degrees(ax: Axes, floor: float | None = None) -> None:
-    from matplotlib.ticker import MaxNLocator, MultipleLocator
-
-    low, high = fit(ax, least=2.0, floor=floor)
-    tick = next((tick for tick, span in ((90.0, 240.0), (45.0, 120.0), (30.0, 80.0)) if high - low > span), None)
-    ax.yaxis.set_major_locator(MultipleLocator(tick) if tick else MaxNLocator(5))

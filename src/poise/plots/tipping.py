@@ -12,6 +12,7 @@ from poise.data.recording import Recording
 from poise.math import arrays
 from poise.monitor import Judgement, judge
 from poise.monitor.dry_run import on_rows
+from poise.plots.lines import FORCE, RATE, fit, line, spans
 from poise.plots.style import (
     BLUE,
     GREEN,
@@ -24,12 +25,9 @@ from poise.plots.style import (
     clock,
     figure_class,
     finish,
-    fit,
     head,
     legend,
-    line,
     name_panel,
-    spans,
 )
 
 if TYPE_CHECKING:
@@ -39,10 +37,11 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 _BEFORE, _AFTER = 2.5, 2.0  # s around the moment
+_OPACITY = 0.35
 _ALARMS = (TipState.TIPPING, TipState.FALLEN)
 _SHADES = {
     TipState.UNKNOWN: PALE,
-    TipState.LEANING: "#F0E442",
+    TipState.LEANING: "#E3C800",
     TipState.TIPPING: ORANGE,
     TipState.FALLEN: "#8C2D04",
     TipState.FREE_FALL: PURPLE,
@@ -83,12 +82,12 @@ def tip_over_figure(
     _draw_lean(axes[0], judgement, truth, rows, time)
     name_panel(axes[1], "Rate of the lean", "[°/s]")
     line(axes[1], time, np.degrees(judgement.rate[rows]), "rate", BLUE)
-    fit(axes[1], least=20.0)
+    fit(axes[1], least=20.0, plausible=RATE)
     name_panel(axes[2], "Specific force", "|f| / g")
     if recording is not None and len(recording) == len(judgement):
         line(axes[2], time, arrays.length(recording.acc[rows]) / judgement.tipover.gravity, "force", BLUE)
     axes[2].axhline(1.0, color=QUIET, lw=0.8, ls=":")
-    fit(axes[2], least=0.5, floor=0.0)
+    fit(axes[2], least=0.5, floor=0.0, plausible=FORCE / judgement.tipover.gravity)
     finish(figure, axes, time, label)
     for ax in axes[:-1]:
         ax.tick_params(labelbottom=False)
@@ -157,7 +156,7 @@ def _draw_lean(ax: Axes, judgement: Judgement, truth: Judgement | None, rows: ND
     if truth is not None:
         line(ax, time, np.degrees(truth.lean[rows]), "reference")
     line(ax, time, np.degrees(judgement.lean[rows]), "lean", BLUE)
-    ax.plot(time, np.degrees(judgement.lean + judgement.margin)[rows], color=ORANGE, lw=1.2, label="limit")
+    line(ax, time, np.degrees(judgement.lean + judgement.margin)[rows], "limit", ORANGE)
     impact = float(np.degrees(judgement.tipover.impact))
     ax.axhline(impact, color=INK, lw=1.0, ls=":", label="impact")
     fit(ax, least=20.0)
@@ -170,13 +169,14 @@ def _shade(
     from matplotlib.patches import Patch
 
     told = []
+    for ax in axes:
+        ax.axvline(moment, color=INK, lw=1.2)
     for state, colour in _SHADES.items():
         stretches = spans(time, judgement.state[rows] == state)
         for ax in axes:
-            ax.axvline(moment, color=INK, lw=1.2)
             for start, length in stretches:
-                ax.axvspan(start, start + length, color=colour, alpha=0.22, lw=0)
+                ax.axvspan(start, start + length, color=colour, alpha=_OPACITY, lw=0)
         if stretches:
-            told.append(Patch(color=colour, alpha=0.35, label=state.name.lower().replace("_", " ")))
+            told.append(Patch(color=colour, alpha=_OPACITY, label=state.name.lower().replace("_", " ")))
     if told:
         figure.legend(handles=told, loc="outside lower right", ncols=len(told), frameon=False, fontsize=9)
