@@ -181,7 +181,8 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         at_hand = to_body @ seen
         upright = to_body @ ((1.0 / (method.gravity * s.force_time)) * force) if s.force_time > 0.0 else ZERO
     rate_is_bias = turns_alone(P, at_hand, upright, still, T, rest, calm)
-    bias_changed = contradicted(method, P, s) or rate_is_bias
+    missed = e if s.mags > 0.0 and known.length > 0.0 and not anew else ZERO
+    bias_changed = contradicted(method, P, s, still, missed, field) or rate_is_bias
     bias_changed = bias_changed or (state.begun and s.mags > 0.0 and turned_away(method, P, s, seen, field, spread))
 
     # 8. Inject
