@@ -10,7 +10,7 @@ from math import atan2, radians, sqrt
 from typing import TYPE_CHECKING
 
 from poise.estimators.self_calibrating.covariance import forget
-from poise.estimators.self_calibrating.leans import forget_lean, is_tilt, lean_of, take_lean
+from poise.estimators.self_calibrating.leans import NOTHING_TOLD, forget_lean, lean_of, take_lean, told
 from poise.estimators.self_calibrating.model import BIAS, KEPT, SUMS, TURN, TURNED, VELOCITY, Floats, Sums, put, vector
 from poise.estimators.self_calibrating.recall import recall
 from poise.math.compiled import compiled
@@ -40,17 +40,17 @@ _OF_MOTION, _OF_LONGER = 0.6, 0.4  # s: of the motion's root mean square that sh
 
 
 @compiled
-def contradicted(method: SelfCalibrating, P: Floats, s: Sums, still: Vec3, error: Vec3, field: Vec3) -> bool:
-    """Takes the block into the means, and says whether the tilt cannot be right (eq. 22).
+def contradicted(method: SelfCalibrating, P: Floats, s: Sums, still: Vec3, error: Vec3, field: Vec3) -> int:
+    """Takes the block into the means, and says what they tell of: TILTED, the tilt cannot be right (eq. 22).
 
-    *still* is the mean rate without the bias, *error* that of the *field*, in lengths and the Earth frame, ZERO where none was seen.
+    *still* is the mean rate without the bias, *error* that of the *field* in lengths, Earth frame, ZERO where none was seen.
     """
     P[SUMS + 2, _UNSETTLED] = max(float(P[SUMS + 2, _UNSETTLED]) - s.time, 0.0)
     row, share = SUMS + 2, s.time / (method.watch_time + s.time)
     if s.force_time == 0.0:  # what was seen before says less and less
         for k in (_MEAN, _MEAN + 1, _SLOW, _SLOW + 1):
             P[row, k] -= share * P[row, k]
-        return False
+        return NOTHING_TOLD
     lean = lean_of(P, s, still, error, method.gravity)
     take_lean(P, 0, share, lean)
     x = float(P[row, _MEAN]) + share * (lean.x - float(P[row, _MEAN]))
@@ -65,12 +65,12 @@ def contradicted(method: SelfCalibrating, P: Floats, s: Sums, still: Vec3, error
     P[row, _SLOW], P[row, _SLOW + 1] = longer_x, longer_y
     P[row, _WATCHED] = min(float(P[row, _WATCHED]) + s.time, 2.0 * method.watch_time)
     if P[row, _WATCHED] < method.watch_time:
-        return False
+        return NOTHING_TOLD
     motion = sqrt(max(square - (x * x + y * y), 0.0))
     least = method.watch_tilt + _OF_MOTION / method.watch_time * motion
     least_longer = method.watch_tilt + _OF_LONGER / (2.0 * method.watch_time) * motion
-    tilted = is_tilt(P, 0, x, y, least, field, method.gravity)
-    return tilted or is_tilt(P, 1, longer_x, longer_y, least_longer, field, method.gravity)
+    soon, later = told(method, P, 0, x, y, least, field), told(method, P, 1, longer_x, longer_y, least_longer, field)
+    return max(soon, later)
 
 
 @compiled
