@@ -326,8 +326,15 @@ def up_and_down(begin: float, end: float, ramp: float, length: float) -> NDArray
 
 @pytest.mark.parametrize(
     ("rate", "radius", "magnetometer"),
-    [(0.2, 60.0, True), (0.33, 18.0, True), (0.5, 4.0, True), (0.8, 5.0, True)]
-    + [(0.33, 18.0, False), (0.5, 4.0, False), (0.8, 5.0, False)],
+    [
+        (0.2, 60.0, True),
+        (0.33, 18.0, True),
+        (0.33, 18.0, False),
+        (0.5, 4.0, True),
+        (0.5, 4.0, False),
+        (0.8, 5.0, True),
+        (0.8, 5.0, False),
+    ],
 )
 def test_going_round_and_round_is_no_reason_to_doubt_the_bias(rate: float, radius: float, magnetometer: bool) -> None:
     rates = rate * up_and_down(10.0, 110.0, 4.0, 130.0)
