@@ -44,7 +44,7 @@ from poise.estimators.self_calibrating.model import (
 from poise.formats import read_attitude
 from poise.math import arrays
 from poise.math.vectors import Vec3
-from poise.simulation import PERFECT, Sensor, Triad, forearm, measure, phone, robot
+from poise.simulation import PERFECT, Motion, Sensor, Triad, forearm, measure, phone, robot
 
 Floats = NDArray[np.float64]
 
@@ -306,6 +306,69 @@ def test_an_even_turn_with_a_strong_magnet_on_the_body_is_not_the_bias(
 @pytest.mark.parametrize("name", ["01", "07", "11", "15", "21", "27", "29", "31", "33", "35"])
 def test_no_bias_is_doubted_where_none_changed(name: str) -> None:
     assert not unsettled(poise.estimate(FLAGSHIP, trial(name))).any()
+
+
+def driven(speed: NDArray[np.float64], rate: NDArray[np.float64], sensor: Sensor, seed: int) -> poise.Recording:
+    """A vehicle on an even floor at 100 Hz, with its *speed* along the way and its *rate* about up."""
+    time = np.arange(len(speed)) / 100.0
+    heading = np.cumsum(rate) / 100.0
+    ahead = np.stack([-np.sin(heading), np.cos(heading), 0.0 * time], axis=1)
+    across = np.stack([-np.cos(heading), -np.sin(heading), 0.0 * time], axis=1)
+    pushed = np.gradient(speed, 0.01)[:, None] * ahead + (speed * rate)[:, None] * across
+    quat = np.stack([np.cos(heading / 2.0), 0.0 * time, 0.0 * time, np.sin(heading / 2.0)], axis=1)
+    rates = np.stack([0.0 * time, 0.0 * time, rate], axis=1)
+    return measure(Motion(time, quat, rates, pushed), sensor, seed=seed)
+
+
+def up_and_down(begin: float, end: float, ramp: float, length: float) -> NDArray[np.float64]:
+    """0, then 1 from *begin* to *end*, at 100 Hz, with even *ramp* s of both."""
+    time = np.arange(int(100.0 * length)) / 100.0
+    return np.clip((time - begin) / ramp, 0.0, 1.0) - np.clip((time - end) / ramp, 0.0, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("rate", "radius", "magnetometer"),
+    [
+        (0.2, 60.0, True),
+        (0.33, 18.0, True),
+        (0.33, 18.0, False),
+        (0.5, 4.0, True),
+        (0.5, 4.0, False),
+        (0.8, 5.0, True),
+        (0.8, 5.0, False),
+    ],
+)
+def test_going_round_and_round_is_no_reason_to_doubt_the_bias(rate: float, radius: float, magnetometer: bool) -> None:
+    rates = rate * up_and_down(10.0, 110.0, 4.0, 130.0)
+    recording = driven(radius * rates, rates, Sensor(), seed=3)
+    if not magnetometer:
+        recording = replace(recording, mag=None)
+    round_and_round = slice(2000, 10500)  # speeding up and slowing down look like a tilt without a magnetometer
+    attitude = poise.estimate(FLAGSHIP, recording)
+    assert not unsettled(attitude)[round_and_round].any()
+    inclination = np.degrees(poise.evaluate(attitude, recording).inclination[round_and_round])
+    assert np.sqrt(np.mean(inclination**2)) < 4.0  # it was 4 to 17
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_vehicle_that_speeds_up_straight_on_is_upright_where_the_field_says_so(seed: int) -> None:
+    speed = 14.0 * up_and_down(8.0, 50.0, 7.0, 70.0)  # 2 m/s², 11.5 degrees of lean
+    recording = driven(speed, 0.0 * speed, Sensor(), seed)
+    attitude = poise.estimate(FLAGSHIP, recording)
+    assert not unsettled(attitude).any()
+    assert np.degrees(poise.evaluate(attitude, recording).inclination).max() < 4.0  # it was 12
+
+
+def test_a_bias_that_changes_on_a_straight_drive_is_found_beside_its_field() -> None:
+    speed = 6.0 * up_and_down(8.0, 95.0, 6.0, 110.0)
+    recording = driven(speed, 0.0 * speed, Sensor(), seed=4)
+    off = np.radians(2.0) * np.array([0.8, 0.6, 0.0])
+    late = (recording.time >= 40.0)[:, None]
+    attitude = poise.estimate(FLAGSHIP, replace(recording, gyr=recording.gyr + off * late))
+    first = float(attitude.time[unsettled(attitude) & (attitude.time > 40.0)][0])
+    assert first < 50.0
+    clean = poise.estimate(FLAGSHIP, recording)
+    np.testing.assert_allclose(attitude.bias[8500] - clean.bias[8500] - off, 0.0, atol=np.radians(0.3))
 
 
 def test_a_slow_accelerometer_is_no_reason_to_doubt_the_bias() -> None:

@@ -17,6 +17,7 @@ from poise.estimators.self_calibrating.model import (
     ANOTHER_BIAS,
     ANOTHER_IRON,
     ANOTHER_NORTH,
+    ANOTHER_VELOCITY,
     BIAS,
     CORRECTIONS,
     ENTRY,
@@ -144,7 +145,13 @@ def back(log: Floats, future: Floats, corrections: Floats) -> None:
         for i in range(3):
             corrections[n, 19 + i] = log[at + i, i]
         event = log[at + 1, ONE]
-        if event != GOES_ON:  # attitude and velocity begun anew: the future says nothing of those before
+        if event == ANOTHER_VELOCITY:  # begun anew behind the block
+            for k in range(VELOCITY, VELOCITY + 3):
+                forget_future(future, k)
+        if event not in (
+            GOES_ON,
+            ANOTHER_VELOCITY,
+        ):  # attitude and velocity begun anew: the future says nothing of those before
             for k in range(3):
                 forget_future(future, TURN + k)
                 forget_future(future, VELOCITY + k)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from poise.estimators.self_calibrating.another_field import forget_field, forget_seen, look_at_field
 from poise.estimators.self_calibrating.covariance import correct, correct_one, enter_block, forget, grow, symmetrise
 from poise.estimators.self_calibrating.iron import ANOTHER_WAY, forget_lengths
+from poise.estimators.self_calibrating.leans import TILTED, UNDER_WAY, go_on_under_way, is_level, take_correction
 from poise.estimators.self_calibrating.learned import iron_from_before, of_this_unit
 from poise.estimators.self_calibrating.lengths import add_turn
 from poise.estimators.self_calibrating.model import (
@@ -20,6 +21,7 @@ from poise.estimators.self_calibrating.model import (
     ANOTHER_BIAS,
     ANOTHER_IRON,
     ANOTHER_NORTH,
+    ANOTHER_VELOCITY,
     BEGUN_ANEW,
     BIAS,
     FIELD,
@@ -185,7 +187,11 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         at_hand = to_body @ seen
         upright = to_body @ ((1.0 / (method.gravity * s.force_time)) * force) if s.force_time > 0.0 else ZERO
     rate_is_bias = turns_alone(P, at_hand, upright, still, T, rest, calm)
-    bias_changed = contradicted(method, P, s) or rate_is_bias
+    missed = e if s.mags > 0.0 and known.length > 0.0 and not anew else ZERO
+    if rest:
+        is_level(P)
+    lean = contradicted(method, P, s, still, missed, field)
+    bias_changed = lean == TILTED or rate_is_bias
     bias_changed = bias_changed or (state.begun and s.mags > 0.0 and turned_away(method, P, s, seen, field, spread))
 
     # 8. Inject
@@ -218,11 +224,15 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         remember(P, after, T)
     else:
         begin_memory(P, after)
+    take_correction(P, s)
     turn_per_bias(P, s.rotation, T / (method.watch_time + T))
     if bias_changed:  # 9. What was thought to be known of it is not
         doubt_bias(method, P)
         event = ANOTHER_BIAS
         forget_seen(P)
+    elif lean == UNDER_WAY:
+        go_on_under_way(method, P)
+        event = ANOTHER_VELOCITY if event == GOES_ON else event
     rested = state.still
     if rate_is_bias:  # and it rests, however far that is from the bias of before
         rested = state.calm

@@ -45,7 +45,8 @@ ROWS, COLUMNS = 44, 32
 # since they were looked at, the turn (3) since the last block, the m (3) that the heading was set by, the seconds since.
 # unproven.py keeps in OPEN a matrix (9), whether the heading is unproven, and an iron (3); another_field.py, behind that,
 # means of the field (3) and its square, their seconds, and whether they confirm what the heading was set by; whether the
-# matrix is that of an iron that was found, and the seconds that agreed. In TURNS turns.py keeps its means.
+# matrix is that of an iron that was found, and the seconds that agreed. In TURNS turns.py keeps its means,
+# behind the sums of TURNED watch.py what a bias has turned and leans.py its means.
 SUMMED, HEADING_SET, TAKEN, JUST_FOUND = 16, 20, 21, 24
 FOUND, LOOKED, TURNED_SINCE, BEGAN, ELAPSED = 18, 19, 20, 23, 26
 # Behind its sums the first row keeps whether the accelerometer's bias is held, that of what is known the last force (3).
@@ -57,7 +58,7 @@ ENTRIES, ENTRY = ROWS, 28
 INJECTED, ADDED, CORRECTIONS, MOST = 6, 7, 10, 9
 ONE = SIZE  # the column of single numbers
 # What became, after a block, of what was known.
-GOES_ON, BEGUN_ANEW, ANOTHER_BIAS, ANOTHER_IRON, ANOTHER_NORTH = 0.0, 1.0, 2.0, 3.0, 4.0
+GOES_ON, BEGUN_ANEW, ANOTHER_BIAS, ANOTHER_IRON, ANOTHER_NORTH, ANOTHER_VELOCITY = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
 
 TURNING, SHAKEN = 0.1, 0.1  # rad/s, with any bias, and of g, RMS since the start: beyond either it is in motion
 IN_MOTION = 4.0  # initial tilts: σ of an attitude by one sample, or a few, in motion

@@ -10,6 +10,7 @@ from math import atan2, radians, sqrt
 from typing import TYPE_CHECKING
 
 from poise.estimators.self_calibrating.covariance import forget
+from poise.estimators.self_calibrating.leans import NOTHING_TOLD, forget_lean, lean_of, take_lean, told
 from poise.estimators.self_calibrating.model import BIAS, KEPT, SUMS, TURN, TURNED, VELOCITY, Floats, Sums, put, vector
 from poise.estimators.self_calibrating.recall import recall
 from poise.math.compiled import compiled
@@ -39,32 +40,37 @@ _OF_MOTION, _OF_LONGER = 0.6, 0.4  # s: of the motion's root mean square that sh
 
 
 @compiled
-def contradicted(method: SelfCalibrating, P: Floats, s: Sums) -> bool:
-    """Takes the block into the means, and says whether the tilt cannot be right (eq. 22)."""
+def contradicted(method: SelfCalibrating, P: Floats, s: Sums, still: Vec3, error: Vec3, field: Vec3) -> int:
+    """Takes the block into the means, and says what they tell of: TILTED, the tilt cannot be right (eq. 22).
+
+    *still* is the mean rate without the bias, *error* that of the *field* in lengths, Earth frame, ZERO where none was seen.
+    """
     P[SUMS + 2, _UNSETTLED] = max(float(P[SUMS + 2, _UNSETTLED]) - s.time, 0.0)
     row, share = SUMS + 2, s.time / (method.watch_time + s.time)
     if s.force_time == 0.0:  # what was seen before says less and less
         for k in (_MEAN, _MEAN + 1, _SLOW, _SLOW + 1):
             P[row, k] -= share * P[row, k]
-        return False
-    per_time = 1.0 / (s.force_time * method.gravity)
-    x = float(P[row, _MEAN]) + share * (s.force.x * per_time - float(P[row, _MEAN]))
-    y = float(P[row, _MEAN + 1]) + share * (s.force.y * per_time - float(P[row, _MEAN + 1]))
+        return NOTHING_TOLD
+    lean = lean_of(P, s, still, error, method.gravity)
+    take_lean(P, 0, share, lean)
+    x = float(P[row, _MEAN]) + share * (lean.x - float(P[row, _MEAN]))
+    y = float(P[row, _MEAN + 1]) + share * (lean.y - float(P[row, _MEAN + 1]))
     square = s.excess_square / (s.samples * method.gravity * method.gravity)
     square = float(P[row, _MEAN + 2]) + share * (square - float(P[row, _MEAN + 2]))
     P[row, _MEAN], P[row, _MEAN + 1], P[row, _MEAN + 2] = x, y, square
     share = s.time / (2.0 * method.watch_time + s.time)
-    longer_x = float(P[row, _SLOW]) + share * (s.force.x * per_time - float(P[row, _SLOW]))
-    longer_y = float(P[row, _SLOW + 1]) + share * (s.force.y * per_time - float(P[row, _SLOW + 1]))
+    take_lean(P, 1, share, lean)
+    longer_x = float(P[row, _SLOW]) + share * (lean.x - float(P[row, _SLOW]))
+    longer_y = float(P[row, _SLOW + 1]) + share * (lean.y - float(P[row, _SLOW + 1]))
     P[row, _SLOW], P[row, _SLOW + 1] = longer_x, longer_y
     P[row, _WATCHED] = min(float(P[row, _WATCHED]) + s.time, 2.0 * method.watch_time)
     if P[row, _WATCHED] < method.watch_time:
-        return False
-    off = x * x + y * y
-    motion = sqrt(max(square - off, 0.0))
+        return NOTHING_TOLD
+    motion = sqrt(max(square - (x * x + y * y), 0.0))
     least = method.watch_tilt + _OF_MOTION / method.watch_time * motion
     least_longer = method.watch_tilt + _OF_LONGER / (2.0 * method.watch_time) * motion
-    return off > least * least or longer_x * longer_x + longer_y * longer_y > least_longer * least_longer
+    soon, later = told(method, P, 0, x, y, least, field), told(method, P, 1, longer_x, longer_y, least_longer, field)
+    return max(soon, later)
 
 
 @compiled
@@ -186,5 +192,6 @@ def forget_watch(P: Floats) -> None:
     put(P, KEPT, _LAST, ZERO)
     for i in range(3):
         put(P, TURNED + i, _PER_BIAS, ZERO)
+    forget_lean(P)
     P[SUMS + 2, _FIELD + 3], P[SUMS + 2, _FIELD + 4] = 0.0, 0.0
     P[SUMS + 2, _SLOW], P[SUMS + 2, _SLOW + 1], P[SUMS + 2, _WATCHED] = 0.0, 0.0, 0.0
