@@ -143,7 +143,7 @@ class Guard(NamedTuple):
                 mag = taken(mag, clean.mag, change(mag, clean.mag), silent, still)
             return State(
                 inner, taken(state.gyr, clean.gyr, change(state.gyr, clean.gyr), clean.dt, still),
-                taken(state.acc, clean.acc, change(state.acc, clean.acc), clean.dt, still), mag,
+                taken(state.acc, sample.acc, change(state.acc, sample.acc), clean.dt, still), mag,
                 counted_on(state.pace, clean.dt), state.levelling, clean.dt, not lost, True, aligned, state.mag_seen,
                 points, lost, 0.0, 0.0, 0.0 if has_mag else silent, astray, 0.0, flags,
             )  # fmt: skip
@@ -214,7 +214,7 @@ def _astray(guard: Guard, astray: float, sample: Sample, attitude: Quat) -> floa
     along = dot(up_in_body(attitude), sample.acc)
     # 0.9 < cos²(18.4°): nearer than any astray_angle, and the cosine is left for the rare case
     if along < 0.0 or along * along < 0.9 * dot(sample.acc, sample.acc):
-        return astray + sample.dt if along < cos(guard.astray_angle) * norm(sample.acc) else 0.0
+        return astray + sample.acc_dt if along < cos(guard.astray_angle) * norm(sample.acc) else 0.0
     return 0.0
 
 

@@ -34,6 +34,8 @@ from poise.estimators.guard.samples import (
     fresh,
     judged,
     jumped,
+    own_time,
+    repeats,
     stirred,
     usual,
 )
@@ -110,8 +112,12 @@ def _measured(field: Vec3) -> bool:
 def plain(guard: Guard, state: State, sample: Sample) -> Sample:
     """A common row as the method may see it."""
     dt, field = sample.dt, sample.mag if _measured(sample.mag) else ABSENT
+    force, acc_dt = sample.acc, own_time(state.acc, dt)
+    if repeats(state.acc, force):
+        force = ABSENT
     return Sample(
-        dt, sample.gyr, sample.acc, field, sample.acc_age, sample.mag_age, dt, min(state.mag_absent + dt, guard.gap), 0.0
+        dt, sample.gyr, force, field, sample.acc_age, sample.mag_age, min(acc_dt, guard.gap),
+        min(state.mag_absent + dt, guard.gap), 0.0,
     )  # fmt: skip
 
 
@@ -203,13 +209,18 @@ def examined(guard: Guard, state: State, sample: Sample) -> Look:
     lost = lost or state.pace.held > guard.longest_disorder
     if not state.started:  # nothing that could be lost
         doubt, lost = 0.0, False
-    clean = Sample(
-        dt, _over_loss(guard, state, rate, dt, usual_step) if has_gyr else rate,
-        sample.acc if has_acc else ABSENT, sample.mag if has_mag else ABSENT, sample.acc_age, sample.mag_age,
-        min(acc_age, guard.gap), min(mag_age, guard.gap), variance,
-    )  # fmt: skip
     usable = has_acc and has_gyr
     goes_on = state.started and not lost and (state.aligned or not has_mag or not guard.follows_mag)
+    force = sample.acc if has_acc else ABSENT
+    if goes_on:  # a method that waits to be started takes what there is, repeated or not
+        acc_age = own_time(state.acc, acc_age)
+        if repeats(state.acc, force):
+            force = ABSENT
+    clean = Sample(
+        dt, _over_loss(guard, state, rate, dt, usual_step) if has_gyr else rate,
+        force, sample.mag if has_mag else ABSENT, sample.acc_age, sample.mag_age,
+        min(acc_age, guard.gap), min(mag_age, guard.gap), variance,
+    )  # fmt: skip
     flags |= UNSETTLED if goes_on and doubt > guard.valid_doubt else 0
     return Look(
         gyr, acc, mag, row.pace, clean, goes_on, usable, turned, mag_seen,

@@ -20,6 +20,7 @@ _AT_FIRST, _RAREST = 0.1, 2e-3  # of that; a smaller share than the last cannot 
 _SLOWEST = 0.1  # s between samples: at a slower sensor a jump says nothing
 _SHORT = 0.05  # s: no repetition to look at
 _IN_MOTION, _AT_REST = 0.5, 1.5  # s of changing samples before one that repeats is thought to hang
+_HELD, _NEW = 0.5, 0.125  # share of the changes that show a held sensor, for one; of a new change in that share
 
 
 class Channel(NamedTuple):
@@ -35,6 +36,7 @@ class Channel(NamedTuple):
     lively: float  # s of changing samples, those in motion counted up to 1: a coarse sensor is lively in motion only
     every: float  # s between its samples, as a rule
     rejected: int  # spikes in a row
+    held: float  # share of its changes, lately, in which all components changed at once after all had repeated
 
 
 class Limits(NamedTuple):
@@ -57,7 +59,7 @@ class Judged(NamedTuple):
 
 @compiled
 def fresh(value: Vec3, limits: Limits) -> Channel:
-    return Channel(value, 0.0, limits.resting, 0.0, _AT_FIRST, 0.0, 0.0, 0.0, 0.0, 0)
+    return Channel(value, 0.0, limits.resting, 0.0, _AT_FIRST, 0.0, 0.0, 0.0, 0.0, 0, 0.0)
 
 
 @compiled
@@ -65,6 +67,28 @@ def change(channel: Channel, value: Vec3) -> float:
     """The square of the change since the last sample; NaN for one that is absent."""
     step = value - channel.value
     return dot(step, step)
+
+
+@compiled
+def is_held(channel: Channel) -> bool:
+    """Whether a slower sensor's last sample is repeated in the rows until its next one: every sample must count once.
+
+    Then all components repeat, and change, together. Of a coarse sensor that is quiet each repeats by chance, p of the
+    rows: p³ (1 − p)³, 2 % at most, of its rows are a change of all of them after a repetition of all.
+    """
+    return channel.held > _HELD
+
+
+@compiled
+def repeats(channel: Channel, value: Vec3) -> bool:
+    """Whether a sample is the last one over again, and no new one."""
+    return is_held(channel) and value == channel.value
+
+
+@compiled
+def own_time(channel: Channel, age: float) -> float:
+    """s that a new sample stands for, *age* s after the last row that had one: repetitions stood for nothing."""
+    return age + channel.same if is_held(channel) else age
 
 
 @compiled
@@ -87,14 +111,16 @@ def taken(channel: Channel, value: Vec3, changed: float, dt: float, still: bool)
     if changed == 0.0:
         return Channel(
             value, mean, channel.most, channel.evidence, channel.repeats, channel.same + dt, channel.longest,
-            channel.lively, every, 0,
+            channel.lively, every, 0, channel.held,
         )  # fmt: skip
     longest = max(channel.longest, channel.same)
     lively = channel.lively + dt if channel.lively < (2.0 if still else 1.0) else channel.lively
     old = channel.value
     again = (1.0 if value.x == old.x else 0.0) + (1.0 if value.y == old.y else 0.0) + (1.0 if value.z == old.z else 0.0)
-    repeats = channel.repeats + _SHARE * (again / 3.0 - channel.repeats)
-    return Channel(value, mean, channel.most, channel.evidence, repeats, 0.0, longest, lively, every, 0)
+    repeating = channel.repeats + _SHARE * (again / 3.0 - channel.repeats)
+    at_once = 1.0 if again == 0.0 and channel.same > 0.0 else 0.0
+    held = channel.held + _NEW * (at_once - channel.held)
+    return Channel(value, mean, channel.most, channel.evidence, repeating, 0.0, longest, lively, every, 0, held)
 
 
 @compiled
@@ -142,15 +168,19 @@ def judged(
 @compiled
 def _rejected(c: Channel) -> Channel:
     return Channel(
-        c.value, c.change, c.most, c.evidence, c.repeats, c.same, c.longest, c.lively, c.every, c.rejected + 1
+        c.value, c.change, c.most, c.evidence, c.repeats, c.same, c.longest, c.lively, c.every, c.rejected + 1, c.held
     )  # fmt: skip
 
 
 @compiled
 def _forgiven(c: Channel, longest: float) -> Channel:
-    return Channel(c.value, c.change, c.most, c.evidence, c.repeats, c.same, longest, c.lively, c.every, c.rejected)
+    return Channel(
+        c.value, c.change, c.most, c.evidence, c.repeats, c.same, longest, c.lively, c.every, c.rejected, c.held
+    )  # fmt: skip
 
 
 @compiled
 def _widened(c: Channel, most: float, evidence: float) -> Channel:
-    return Channel(c.value, c.change, most, evidence, c.repeats, c.same, c.longest, c.lively, c.every, c.rejected)
+    return Channel(
+        c.value, c.change, most, evidence, c.repeats, c.same, c.longest, c.lively, c.every, c.rejected, c.held
+    )  # fmt: skip

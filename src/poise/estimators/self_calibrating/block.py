@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 
 from poise.estimators.self_calibrating.another_field import forget_field, forget_seen, look_at_field
 from poise.estimators.self_calibrating.covariance import correct, correct_one, enter_block, forget, grow, symmetrise
+from poise.estimators.self_calibrating.delay import expected_delay
 from poise.estimators.self_calibrating.iron import ANOTHER_WAY, forget_lengths
-from poise.estimators.self_calibrating.leans import TILTED, UNDER_WAY, go_on_under_way, is_level, take_correction
+from poise.estimators.self_calibrating.leans import TILTED, UNDER_WAY, go_on_under_way, put_rested, take_correction
 from poise.estimators.self_calibrating.learned import iron_from_before, of_this_unit
 from poise.estimators.self_calibrating.lengths import add_turn
 from poise.estimators.self_calibrating.model import (
@@ -99,10 +100,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     if s.force_time == 0.0:
         lose_velocity(P, known.wander, T / method.speed_time if method.speed_time > T else 1.0)
     add_clipping(P, s.clipped, 0.4 * method.gyr_range)
-    acc_delay, interval = known.acc_delay, T / s.samples
-    if not state.begun and acc_delay == 0.0:  # somewhere from none to half an interval
-        acc_delay = 0.25 * interval
-        P[ACC_DELAY, ACC_DELAY] += (0.15 * interval) ** 2
+    acc_delay = expected_delay(P, known.acc_delay, state.begun, T / s.samples)
     q = state.attitude if state.begun else levelled(method, P, state.attitude, s)
     force = s.force if state.begun else rotate(q * conjugate(state.attitude), s.force)
     v = known.velocity + force - (method.gravity * s.force_time) * UP
@@ -189,7 +187,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     rate_is_bias = turns_alone(P, at_hand, upright, still, T, rest, calm)
     missed = e if s.mags > 0.0 and known.length > 0.0 and not anew else ZERO
     if rest:
-        is_level(P)
+        put_rested(P, True)
     lean = contradicted(method, P, s, still, missed, field)
     bias_changed = lean == TILTED or rate_is_bias
     bias_changed = bias_changed or (state.begun and s.mags > 0.0 and turned_away(method, P, s, seen, field, spread))

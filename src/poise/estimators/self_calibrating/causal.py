@@ -29,6 +29,8 @@ from poise.data.packet import Output, Sample
 from poise.estimators.self_calibrating.another_field import forget_field
 from poise.estimators.self_calibrating.block import closed, in_motion, level, so_far
 from poise.estimators.self_calibrating.covariance import enter_block, forget
+from poise.estimators.self_calibrating.delay import note_interval
+from poise.estimators.self_calibrating.leans import put_rested
 from poise.estimators.self_calibrating.learned import check_start, doubts, iron_from_before, take_over, without_iron
 from poise.estimators.self_calibrating.learned import learned as known_by_now
 from poise.estimators.self_calibrating.lengths import add_length
@@ -215,6 +217,7 @@ class SelfCalibrating(NamedTuple):
             enter_block(P, NOTHING, BEGUN_ANEW, self.gravity)
         begin_block(P)
         forget_watch(P)
+        put_rested(P, False)
         put(P, SENSOR, 9, ZERO)
         put(P, SENSOR, FORCE, ZERO)
         put(P, LENGTHS, BEGAN, ZERO)
@@ -264,6 +267,7 @@ class SelfCalibrating(NamedTuple):
                 moved: Vec3 = R @ cross(w, f)
                 force_late = force_late - sample.acc_dt * moved
             force_time += sample.acc_dt
+            note_interval(P, sample.acc_dt, T)
             beyond = earth - self.gravity * UP
             rows = sample.acc_dt / T if T > 0.0 else 1.0  # that it stands for: an accelerometer may be slower
             excess += rows * dot(beyond, beyond)

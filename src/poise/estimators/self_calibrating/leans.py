@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 # Behind what has been turned, two rows keep the means over watch_time and over twice that: of the push (2) by a speed of 1 m/s,
 # of the rate's square, of the push with the force (2), of the field's error (3), and of the time it was seen for. The third
 # keeps the turn about up, what the corrections since _HELD have made of tilt (3) and bias (3) if all of them were wrong, and
-# whether the sensor has been seen level since the attitude began: at rest, or by a mean force that did not lean.
+# whether it has rested since the attitude began: begun in motion it may be a tilt that leans, and the field was learned by it.
 _PUSH, _RATE, _PUSHED, _ERROR, _SEEN = 18, 20, 21, 23, 26
-_HEADING, _MADE, _LEARNED, _LEVEL = 18, 19, 22, 25
+_HEADING, _MADE, _LEARNED, _RESTED = 18, 19, 22, 25
 _WANDER = 24  # where in the row of the sensor s_v² is
 _HELD = 30.0  # s, as long as recall.py goes back at least
 _SPEED = 10.0  # m/s: σ of a vehicle's speed
@@ -75,9 +75,8 @@ def take_lean(P: Floats, which: int, share: float, a: Lean) -> None:
 def told(method: SelfCalibrating, P: Floats, which: int, x: float, y: float, least: float, field: Vec3) -> int:
     """What a mean force that leans by (x, y) g tells of, if it does so by more than *least* (eq. 34 to 36)."""
     if x * x + y * y <= least * least:
-        P[TURNED + 2, _LEVEL] = 1.0
         return NOTHING_TOLD
-    if P[TURNED + 2, _LEVEL] == 0.0:  # begun in motion, and it has leaned ever since
+    if P[TURNED + 2, _RESTED] == 0.0:
         return TILTED
     row = TURNED + which
     # What is left without the push by the likeliest speed.
@@ -101,9 +100,9 @@ def told(method: SelfCalibrating, P: Floats, which: int, x: float, y: float, lea
 
 
 @compiled
-def is_level(P: Floats) -> None:
-    """It rests."""
-    P[TURNED + 2, _LEVEL] = 1.0
+def put_rested(P: Floats, rested: bool) -> None:
+    """Whether the sensor has rested since its attitude began."""
+    P[TURNED + 2, _RESTED] = 1.0 if rested else 0.0
 
 
 @compiled
@@ -126,7 +125,9 @@ def go_on_under_way(method: SelfCalibrating, P: Floats) -> None:
 
 @compiled
 def forget_lean(P: Floats) -> None:
-    """Nothing seen yet."""
+    """Nothing seen yet, but whether it has rested."""
+    rested = P[TURNED + 2, _RESTED]
     for i in range(3):
         for k in range(_PUSH, _SEEN + 1):
             P[TURNED + i, k] = 0.0
+    P[TURNED + 2, _RESTED] = rested

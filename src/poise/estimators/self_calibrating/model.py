@@ -39,7 +39,8 @@ SIZE = 29
 H, X, ROOM = 29, 30, 31  # of a correction: what is measured of the errors, their estimate, P h
 TURNED = 32  # three rows: S_A = Σ R[:, i] g_j dt, column 3 i + j
 SUMS, SENSOR, KEPT, LENGTHS, OPEN, TURNS = 35, 38, 39, 41, 42, 43  # two rows keep what was known before: recall.py
-ROWS, COLUMNS = 44, 32
+OWN = 44  # what delay.py keeps of the accelerometer's own interval
+ROWS, COLUMNS = 45, 32
 # iron.py keeps, behind the sums of the second row, a block's sums of m (3) and |m|², the turn that the heading was set by, and
 # the m (3) of the last block that was taken. In the row of lengths, behind the means: how often an iron was found, the seconds
 # since they were looked at, the turn (3) since the last block, the m (3) that the heading was set by, the seconds since.
@@ -76,7 +77,7 @@ class State(NamedTuple):
     calm: float  # s that neither rate nor force have strayed from their means
     still: float  # s of that in which the mean rate could be the bias
     begun: bool  # a block has been closed
-    P: Floats  # (44, 32): the errors' covariance and, below it, the rest of the memory: see ROWS
+    P: Floats  # (45, 32): the errors' covariance and, below it, the rest of the memory: see ROWS
 
 
 class Sums(NamedTuple):
