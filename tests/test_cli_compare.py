@@ -52,6 +52,12 @@ def test_compare_json_with_good_and_bad_files(
     assert "nowhere.csv" in page and "poise compare made.csv blind.csv" in page
 
 
+def test_limits_of_files_and_degrees_are_two_options(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["compare", "made.csv", "-m", "tilt", "--limit", "rows=10"]) == 1
+    assert "the limit is 10" in capsys.readouterr().err
+    assert run(["compare", "made.csv", "-m", "tilt", "--limit", "rows=2e8", "--threshold", "5"]) == 0
+
+
 def test_compare_tells_and_draws(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["compare", "blind.csv", "-m", "two-stage", "-m", "gated", "--threshold", "0.1", "--plot", "a.svg"]) == 0
     captured = capsys.readouterr()

@@ -84,6 +84,7 @@ def test_the_list_names_worlds_options_and_sources(capsys: pytest.CaptureFixture
         (["balance", "--set", "bumps=high"], 2, "bumps: expected a number"),
         (["balance", "--sensor", "MPU-1"], 2, "expected one of MPU-6050"),
         (["balance", "--duration", "nan"], 2, "--duration nan: expected seconds"),
+        (["balance", "--duration", "0.001"], 2, r"--duration 0\.001 at --rate 200 makes 0 rows, expected 2 at least"),
         (["balance", "--seed", "-1"], 2, "--seed -1"),
         (["arm", "--at", "hand"], 2, "arm has forearm, upper_arm"),
         (["balance", "-o", "robot.xls"], 2, r"ending in \.parquet"),

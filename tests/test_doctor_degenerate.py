@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import poise
 from poise import Recording, diagnose
 from poise.errors import PoiseError
 from poise.simulation import PERFECT, Sensor, at_rest, forearm, measure, phone
@@ -110,6 +111,7 @@ def test_why_there_is_nothing_to_look_at() -> None:
     for changed, says in (
         ({"acc": zeros}, "every sample of the accelerometer is zero"),
         ({"acc": beyond}, "no usable sample of the accelerometer"),
+        ({"acc": np.array([0.0, 0.0, 1e308]) + zeros}, "no usable sample of the accelerometer"),
         ({"gyr": beyond * np.nan, "acc": beyond * np.nan}, "no usable sample of the gyroscope and the accelerometer"),
         ({"time": np.full(n, 3.0)}, "no time stamp rises"),
     ):
@@ -117,6 +119,16 @@ def test_why_there_is_nothing_to_look_at() -> None:
         assert sure.name == "samples" and says in sure.sentence
     few = diagnose(base.with_samples(mag=beyond)).findings
     assert f"{n} of {n} samples of mag are infinite or beyond 1e+12" in few[0].sentence
+
+
+def test_the_doctor_and_the_estimate_agree_on_one_row() -> None:
+    """A row at rest is an attitude: it cannot be told whether it is right, and it is not surely wrong."""
+    one = poise.Recording([0.0], [[0.0, 0, 0]], [[0.0, 0, 9.8]], [[0.0, 20, -40]])
+    assert poise.estimate(poise.TwoStage(), one).valid.all()
+    (found,) = diagnose(one).findings
+    assert found.severity == "cannot-tell" and "1 row" in found.sentence
+    none = one.with_samples(acc=np.array([[0.0, 0.0, np.nan]]))
+    assert diagnose(none).found("sure") and not poise.estimate(poise.TwoStage(), none).valid.any()
 
 
 def test_one_pair_of_sensors_does_not_tell_which_is_wrong() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import re
 import time
 from collections.abc import Iterator
 from contextlib import suppress
@@ -277,7 +278,8 @@ def test_over_http(live: Running) -> None:
     assert "web" in {each["id"] for each in live.http.get("/devices").json()}
     assert live.http.get("/devices/nobody/attitude").status_code == 404
     assert live.http.get("/devices/web/attitude?method=magic").status_code == 400
-    assert live.http.put("/devices/web/methods", content=b"nonsense").status_code == 400
+    garbage = live.http.put("/devices/web/methods", content=b"nonsense")
+    assert garbage.status_code == 400 and re.search("not JSON: 'nonsense'.*two-stage", garbage.text)
     assert {each["name"] for each in live.http.get("/methods").json()} == set(poise.METHODS)
     assert 'poise_device_samples_total{device="web"} 100' in live.http.get("/metrics").text
     with live.http.stream("GET", "/events") as events:

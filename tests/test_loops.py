@@ -161,7 +161,10 @@ def test_the_command_names_what_it_cannot_do(capsys: pytest.CaptureFixture[str])
         ["--sensor", "none"],
         ["--seed", "-1"],
         ["-o", "run.txt"],
+        ["--say", "alarm.mp3"],
     ):
         assert run(["balance", *wrong]) == 2
         said = capsys.readouterr().err
         assert len(said.splitlines()) == 1 and wrong[1] in said
+    assert run(["balance", "--push", "1e9"]) == 2
+    assert "--push: expected 0 or more, below 100000, found 1e+09" in capsys.readouterr().err

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 _BEFORE, _AFTER = 2.5, 2.0  # s around the moment
-_OPACITY = 0.35
+_OPACITY, _NARROWEST = 0.35, 0.008  # of the panel, a state that can be seen
 _ALARMS = (TipState.TIPPING, TipState.FALLEN)
 _SHADES = {
     TipState.UNKNOWN: PALE,
@@ -169,13 +169,16 @@ def _shade(
     from matplotlib.patches import Patch
 
     told = []
+    # A body that falls leans for one sample only, which the line of the moment would hide
+    least = _NARROWEST * float(np.nanmax(time) - np.nanmin(time)) if np.isfinite(time).any() else 0.0
     for ax in axes:
         ax.axvline(moment, color=INK, lw=1.2)
     for state, colour in _SHADES.items():
         stretches = spans(time, judgement.state[rows] == state)
         for ax in axes:
             for start, length in stretches:
-                ax.axvspan(start, start + length, color=colour, alpha=_OPACITY, lw=0)
+                begin = min(start, start + length - least)
+                ax.axvspan(begin, start + length, color=colour, alpha=_OPACITY, lw=0)
         if stretches:
             told.append(Patch(color=colour, alpha=_OPACITY, label=state.name.lower().replace("_", " ")))
     if told:
