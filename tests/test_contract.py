@@ -480,6 +480,21 @@ numpy.save(sys.argv[2], poise.estimate(METHODS[sys.argv[1]](), recording).table)
 """
 
 
+_PLAIN_BACK = """
+import sys, numpy, poise
+from poise.simulation import Sensor, forearm, measure
+numpy.save(sys.argv[1], poise.smooth(measure(forearm(6.0, 50.0, 4), Sensor(), seed=4)).table)
+"""
+
+
+def test_compiled_and_plain_python_agree_on_the_way_back(tmp_path: Any) -> None:
+    out = tmp_path / "plain.npy"
+    environment = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
+    subprocess.run([sys.executable, "-c", _PLAIN_BACK, str(out)], check=True, env=environment, timeout=120)
+    compiled = poise.smooth(measure(forearm(6.0, 50.0, 4), Sensor(), seed=4))
+    np.testing.assert_allclose(np.load(out), compiled.table, atol=1e-9)
+
+
 @every_method
 def test_compiled_and_plain_python_agree(method: Any, tmp_path: Any) -> None:
     name = next(name for name, cls in METHODS.items() if cls is type(method))

@@ -198,7 +198,7 @@ def apply(
         if index[r] == 0:
             share = 1.0
         elif index[r] < n and corrections[after, 18] == 0.0 and time[after] > time[before]:
-            share = (rows[r] - time[before]) / (time[after] - time[before])
+            share = float((rows[r] - time[before]) / (time[after] - time[before]))
             share = min(max(share, 0.0), 1.0) if share == share else 0.0
         x = mixed(corrections, before, after, share, TURN)
         turn = north * exp(x) * south if declination != 0.0 else exp(x)
