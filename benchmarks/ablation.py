@@ -183,7 +183,8 @@ def moving(trials: Trials) -> Iterator[Table]:
             for run, made in RUNS.items():
                 e = poise.evaluate(made(piece), piece)
                 t, square = piece.time[e.counted] - cut, e.total[e.counted] ** 2
-                means = [float(np.degrees(np.sqrt(np.mean(square[(a <= t) & (t < b)])))) for a, b in spans]
+                parts = [square[(a <= t) & (t < b)] for a, b in spans]
+                means = [float(np.degrees(np.sqrt(part.mean()))) if len(part) else np.nan for part in parts]
                 found[run].append(means)
     labels = ["first 3 s", "3 to 6 s", "from 6 s on", "all", "all: median", "all: largest"]
     rows: list[list[Cell]] = [[label] for label in labels]
