@@ -5,12 +5,13 @@ Steps 4 to 9 of ``docs/methods/self-calibrating.md``, which derives them.
 
 from __future__ import annotations
 
-from math import atan2, cos, sqrt
+from math import atan2, sqrt
 from typing import TYPE_CHECKING
 
 from poise.estimators.self_calibrating.another_field import forget_field, forget_seen, look_at_field
 from poise.estimators.self_calibrating.covariance import correct, correct_one, enter_block, forget, grow, symmetrise
 from poise.estimators.self_calibrating.delay import expected_delay
+from poise.estimators.self_calibrating.first_block import begun_at, in_motion, turned_sums
 from poise.estimators.self_calibrating.iron import ANOTHER_WAY, forget_lengths
 from poise.estimators.self_calibrating.leans import TILTED, UNDER_WAY, go_on_under_way, put_rested, take_correction
 from poise.estimators.self_calibrating.learned import iron_from_before, of_this_unit
@@ -29,16 +30,13 @@ from poise.estimators.self_calibrating.model import (
     GOES_ON,
     HEADING_SET,
     HELD,
-    IN_MOTION,
     IRON,
     JUST_FOUND,
     MAG_DELAY,
     SCALE,
-    SHAKEN,
     SIZE,
     SUMS,
     TURN,
-    TURNING,
     VELOCITY,
     Floats,
     H,
@@ -65,8 +63,8 @@ from poise.estimators.self_calibrating.watch import (
 )
 from poise.math.compiled import compiled
 from poise.math.matrices import Mat3, matrix, transpose
-from poise.math.quaternions import Quat, conjugate, exp, log, normalize, rotate, shortest_turn
-from poise.math.vectors import UP, ZERO, Vec3, dot, norm, unit
+from poise.math.quaternions import conjugate, exp, log, normalize
+from poise.math.vectors import UP, ZERO, Vec3, dot, norm
 
 if TYPE_CHECKING:
     from poise.estimators.self_calibrating.causal import SelfCalibrating
@@ -83,6 +81,11 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     T, rate_square = s.time, s.rate_square / s.samples
     still = (1.0 / s.samples) * s.gyr - state.bias
     rest = state.still >= method.rest_time
+
+    q = state.attitude
+    if not state.begun:  # 1. Where up and north are
+        q = begun_at(method, P, q, s, known.length)
+        s = turned_sums(P, s, q * conjugate(state.attitude), method.gravity)
 
     # 4. Covariance
     walk = method.bias_walk_rest if rest else method.bias_walk
@@ -101,9 +104,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
         lose_velocity(P, known.wander, T / method.speed_time if method.speed_time > T else 1.0)
     add_clipping(P, s.clipped, 0.4 * method.gyr_range)
     acc_delay = expected_delay(P, known.acc_delay, state.begun, T / s.samples)
-    q = state.attitude if state.begun else levelled(method, P, state.attitude, s)
-    force = s.force if state.begun else rotate(q * conjugate(state.attitude), s.force)
-    v = known.velocity + force - (method.gravity * s.force_time) * UP
+    v = known.velocity + s.force - (method.gravity * s.force_time) * UP
     for j in range(SIZE):
         P[X, j] = 0.0
 
@@ -142,8 +143,6 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
             there: Vec3 = to_iron @ held
             e = e - there
             iron = held / norm(e)
-        if not state.begun:
-            e = rotate(q * conjugate(state.attitude), e)
         if length <= 0.0:
             length = norm(e)
             field = Vec3(0.0, sqrt(e.x * e.x + e.y * e.y) / length, e.z / length)
@@ -183,7 +182,7 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
     if calm:
         to_body = transpose(matrix(q))
         at_hand = to_body @ seen
-        upright = to_body @ ((1.0 / (method.gravity * s.force_time)) * force) if s.force_time > 0.0 else ZERO
+        upright = to_body @ ((1.0 / (method.gravity * s.force_time)) * s.force) if s.force_time > 0.0 else ZERO
     rate_is_bias = turns_alone(P, at_hand, upright, still, T, rest, calm)
     missed = e if s.mags > 0.0 and known.length > 0.0 and not anew else ZERO
     if rest:
@@ -256,49 +255,6 @@ def likely_bias(method: SelfCalibrating, P: Floats, off: Vec3) -> bool:
     own = method.rest_noise**2
     x, y, z = float(P[BIAS, BIAS]) + own, float(P[BIAS + 1, BIAS + 1]) + own, float(P[BIAS + 2, BIAS + 2]) + own
     return off.x * off.x < most * x and off.y * off.y < most * y and off.z * off.z < most * z
-
-
-@compiled
-def level(method: SelfCalibrating, P: Floats, s: Sums, dt: float, calm: float) -> bool:
-    """Whether the first block can say where up is: one in motion goes on for `level_time`, or until nothing moves."""
-    end = method.block - 0.5 * dt
-    if s.time - dt < end:  # else it was found to be in motion
-        shaken = s.excess_square > (SHAKEN * method.gravity) ** 2 * s.samples
-        moves = shaken or s.rate_square > TURNING**2 * s.samples
-        forget(P, TURN, 2, ((IN_MOTION if moves else 1.0) * method.initial_tilt) ** 2)
-        if not moves or s.time < end:
-            return s.time >= end
-    return s.time >= method.level_time or calm >= method.rest_time
-
-
-@compiled
-def in_motion(method: SelfCalibrating, P: Floats) -> bool:
-    """Whether the first block, while it is open, seems to be in motion."""
-    return float(P[TURN, TURN]) > (2.0 * method.initial_tilt) ** 2
-
-
-@compiled
-def levelled(method: SelfCalibrating, P: Floats, q: Quat, s: Sums) -> Quat:
-    """The attitude that the first block started at, levelled by its mean force.
-
-    In motion always; else where gravity contradicts it: then it was given, and wrong.
-    """
-    if s.force_time == 0.0:
-        return q
-    mean = (1.0 / s.force_time) * s.force
-    length = norm(mean)
-    off = mean.z < cos(3.0 * method.initial_tilt) * length and abs(length - method.gravity) < 0.1 * method.gravity
-    return shortest_turn(unit(mean), UP) * q if off or (in_motion(method, P) and length > 0.0) else q
-
-
-@compiled
-def so_far(q: Quat, s: Sums) -> Quat:
-    """The attitude in a first block in motion that is still open: levelled, and turned to the field, by what it has seen."""
-    if s.force_time == 0.0 or dot(s.force, s.force) == 0.0:
-        return q
-    levelling = shortest_turn(unit(s.force), UP)
-    e = rotate(levelling, s.off)
-    return (exp(atan2(e.x, e.y) * UP) * levelling if s.mags > 0.0 else levelling) * q
 
 
 @compiled

@@ -27,9 +27,10 @@ from poise.data.flags import (
 from poise.data.learned import Learned
 from poise.data.packet import Output, Sample
 from poise.estimators.self_calibrating.another_field import forget_field
-from poise.estimators.self_calibrating.block import closed, in_motion, level, so_far
+from poise.estimators.self_calibrating.block import closed
 from poise.estimators.self_calibrating.covariance import enter_block, forget
 from poise.estimators.self_calibrating.delay import note_interval
+from poise.estimators.self_calibrating.first_block import in_motion, level, so_far
 from poise.estimators.self_calibrating.leans import put_rested
 from poise.estimators.self_calibrating.learned import check_start, doubts, iron_from_before, take_over, without_iron
 from poise.estimators.self_calibrating.learned import learned as known_by_now
