@@ -166,6 +166,19 @@ def test_stamps_that_scatter_far_are_those_of_an_even_pace(kind: str) -> None:
     assert np.quantile(abs(away[100:]), 0.9) < 0.3 * period
 
 
+@pytest.mark.parametrize("kind", ["anywhere between", "exponential", "5 and 15 ms", "8, 8 and 14 ms"])
+def test_steps_that_are_uneven_by_themselves_are_kept(kind: str) -> None:
+    rng, n = np.random.default_rng(4), 12000
+    drawn = {
+        "anywhere between": rng.uniform(2.0, 18.0, n),
+        "exponential": 1.0 + rng.exponential(10.0, n),
+        "5 and 15 ms": np.tile([5.0, 15.0], n // 2),
+        "8, 8 and 14 ms": np.tile([8.0, 8.0, 14.0], n // 3),
+    }
+    time = np.cumsum(drawn[kind]) * 1e-3
+    np.testing.assert_allclose(np.diff(evened(time))[100:], np.diff(time)[100:], atol=1e-9)
+
+
 def test_samples_that_come_unevenly_keep_their_stamps() -> None:
     """Every second row in five left out: steps of one and two periods, none of them an error of the clock."""
     kept = np.flatnonzero(np.arange(len(clean())) % 5 != 1)

@@ -625,3 +625,30 @@ def test_a_recording_that_never_rests_is_right_from_the_first_row_offline() -> N
     smoothed = poise.smooth(moving)
     assert smoothed.valid.all()
     assert np.degrees(np.nanmax(poise.evaluate(smoothed, moving).inclination[:300])) < 4.0
+
+
+def test_the_rows_of_a_start_in_motion_are_turned_back_by_the_bias_that_is_found_later() -> None:
+    """3 s at 2 deg/s are 6 degrees that the end of the first block does not show."""
+    recording = measure(forearm(30.0, 100.0, seed=3), Sensor(), seed=3)
+    moving = recording.between(recording.time[0] + 7.0, recording.time[0] + 27.0)
+    off = np.radians([1.5, -1.0, 0.9])
+    smoothed = poise.smooth(replace(moving, gyr=moving.gyr + off))
+    first = moving.time < moving.time[0] + 3.0
+    error, sigma = poise.evaluate(smoothed, moving).inclination[first], smoothed.sigma[first]
+    assert smoothed.valid[first].all()
+    assert np.nanmax(error / np.hypot(sigma[:, 0], sigma[:, 1])) < 3.0
+    assert np.degrees(np.nanmax(error)) < 4.0
+
+
+def test_a_start_in_motion_in_which_something_was_not_measured_stays_unsettled() -> None:
+    recording = measure(forearm(30.0, 100.0, seed=3), Sensor(), seed=3)
+    moving = recording.between(recording.time[0] + 7.0, recording.time[0] + 27.0)
+    gyr = moving.gyr.copy()
+    gyr[150:200] = np.nan
+    assert not poise.smooth(replace(moving, gyr=gyr)).valid[:140].any()
+
+
+@pytest.mark.parametrize("bias_deg", [(0.0, 6.0, 0.0), (3.0, -3.0, 3.0)])
+def test_a_large_bias_at_rest_is_no_motion(bias_deg: tuple[float, float, float]) -> None:
+    recording = measure(forearm(10.0, 100.0, seed=3), Sensor(), seed=3)
+    assert poise.estimate(FLAGSHIP, replace(recording, gyr=recording.gyr + np.radians(bias_deg))).valid[:100].all()

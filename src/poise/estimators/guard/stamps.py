@@ -36,7 +36,8 @@ _TURNS_BACK, _STILL = (
     -0.3,
     -0.15,
 )  # correlation of successive steps. −0.5 where the stamps scatter, and 0 where the samples do; once it is known
-_LONG_STEP, _EARLY_BY = 0.5, 0.5  # more than the usual step: a row was lost, unless the next is early by so much of it
+_AGAIN = 0.3  # of the scatter: a pattern of steps that comes again, and no scatter, correlates over two steps too
+_LONG_STEP = 0.5  # more than the usual step: a row may have been lost
 _LATEST = 0.9  # (usual step): a stamp later than that is the next row's
 _TOO_MANY = 0.05  # (usual step): what a row is taken to last where one was taken for lost that was not
 _OFTEN = 0.005  # of a new row in what is known of the scatter
@@ -51,15 +52,17 @@ class Pace(NamedTuple):
     back: float  # s that the clock was set back; should it come back to its old time, that is no gap
     waiting: int  # rows since the last stamp that rose
     held: int  # rows in a row that no time was given to
-    off: float  # of the last step from the usual one, in usual steps; above 0.5 the next row tells whether one was lost
-    scatter: float  # mean square of that
+    off: float  # of the last step from the usual one, in usual steps
+    earlier: float  # that of the step before
+    scatter: float  # mean square of them
     turns: float  # mean product with the one before
+    again: float  # and with the one before that
     rows: float  # that this is known from, counted up to 5000
     line: float  # rows that a line through stamps that scatter is drawn through, counted up to 400; 0 where they do not
     packets: Packets
 
 
-UNKNOWN = Pace(0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, NONE)
+UNKNOWN = Pace(0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, NONE)
 
 
 class Timed(NamedTuple):
@@ -90,10 +93,11 @@ def counted_on(pace: Pace, dt: float) -> Pace:
     """The pace after an ordinary step."""
     step = pace.step + _SHARE * (dt - pace.step)
     off = dt / pace.step - 1.0
-    scatter, turns = pace.scatter, pace.turns
+    scatter, turns, again = pace.scatter, pace.turns, pace.again
     return Pace(
-        step, 0.0, pace.back, 0, 0, off, scatter + _OFTEN * (off * off - scatter),
-        turns + _OFTEN * (off * pace.off - turns), min(pace.rows + 1.0, _LONG), 0.0, one_by_one(pace.packets, step),
+        step, 0.0, pace.back, 0, 0, off, pace.off, scatter + _OFTEN * (off * off - scatter),
+        turns + _OFTEN * (off * pace.off - turns), again + _OFTEN * (off * pace.earlier - again),
+        min(pace.rows + 1.0, _LONG), 0.0, one_by_one(pace.packets, step),
     )  # fmt: skip
 
 
@@ -102,6 +106,7 @@ def _scattered(pace: Pace) -> bool:
     """Whether the stamps scatter and the samples do not: a stamp that is late makes one step long and the next one short."""
     back = _STILL if pace.line > 0.0 else _TURNS_BACK
     known = pace.scatter > _SCATTER and pace.turns < back * pace.scatter and pace.rows >= _EARLY
+    known = known and abs(pace.again) < _AGAIN * pace.scatter
     return in_packets(pace.packets) or known
 
 
@@ -134,7 +139,9 @@ def timed(pace: Pace, dt: float, repeated: bool, goes_on: bool, gap: float, long
         return Timed(_without_stamp(pace, dt), usual, JITTER)
     if usual > 0.0 and dt <= most and begins_packet(pace.packets, dt, pace.waiting):
         row = followed(pace.packets, dt, usual, pace.ahead, pace.waiting, pace.rows, most)
-        after = Pace(row.step, row.ahead, kept, 0, 0, 0.0, pace.scatter, pace.turns, row.rows, 0.0, row.packets)
+        after = Pace(
+            row.step, row.ahead, kept, 0, 0, 0.0, 0.0, pace.scatter, pace.turns, pace.again, row.rows, 0.0, row.packets
+        )
         return Timed(after, row.given, 0)
     if dt <= gap and usual > 0.0 and _scattered(pace):
         late = min(0.5 + 1.5 * sqrt(0.5 * pace.scatter), _LATEST)  # beside 1.5 σ of a stamp
@@ -177,8 +184,9 @@ def timed(pace: Pace, dt: float, repeated: bool, goes_on: bool, gap: float, long
 def _with(pace: Pace, step: float, ahead: float, back: float, waiting: int, held: int) -> Pace:
     """What is known of the scatter of the stamps stays."""
     return Pace(
-        step, ahead, back, waiting, held, pace.off, pace.scatter, pace.turns, pace.rows, pace.line, pace.packets
-    )
+        step, ahead, back, waiting, held, pace.off, pace.earlier, pace.scatter, pace.turns, pace.again, pace.rows,
+        pace.line, pace.packets,
+    )  # fmt: skip
 
 
 @compiled
@@ -186,17 +194,17 @@ def _after(pace: Pace, step: float, ahead: float, back: float, dt: float, line: 
     """The pace after a stamp that rose by *dt*: lost rows are no scatter."""
     alone = not within_packet(pace.packets, dt)
     share = max(_OFTEN, 1.0 / (pace.rows + 1.0))
-    off, before = min(dt / step - 1.0, 1.0), pace.off
-    scatter, turns = pace.scatter, pace.turns
-    if before > _LONG_STEP and off > -_EARLY_BY * before:  # a row was lost
-        before = 0.0
-    elif before > _LONG_STEP:
-        scatter += share * (before * before - scatter)
-    if off <= _LONG_STEP:
+    off, before, earlier = min(dt / step - 1.0, 1.0), pace.off, pace.earlier
+    scatter, turns, again = pace.scatter, pace.turns, pace.again
+    if (
+        off <= _LONG_STEP and before <= _LONG_STEP
+    ):  # a long one may be that of a lost row, and says nothing, nor the next
         scatter += share * (off * off - scatter)
         turns += share * (off * before - turns)
+        if earlier <= _LONG_STEP:
+            again += share * (off * earlier - again)
     return Pace(
-        step, ahead, back, 0, 0, off, scatter, turns, min(pace.rows + 1.0, _LONG), line,
+        step, ahead, back, 0, 0, off, before, scatter, turns, again, min(pace.rows + 1.0, _LONG), line,
         counted(pace.packets, dt, alone, pace.waiting, pace.rows),
     )  # fmt: skip
 
@@ -205,7 +213,7 @@ def _after(pace: Pace, step: float, ahead: float, back: float, dt: float, line: 
 def _without_stamp(pace: Pace, dt: float) -> Pace:
     """The pace after a row that was given the usual step, although its stamp rose by *dt* only."""
     return Pace(
-        pace.step, pace.ahead + pace.step - dt, pace.back, pace.waiting + 1, 0, 0.0, pace.scatter, pace.turns,
+        pace.step, pace.ahead + pace.step - dt, pace.back, pace.waiting + 1, 0, 0.0, 0.0, pace.scatter, pace.turns, pace.again,
         min(pace.rows + 1.0, _LONG), pace.line, counted(pace.packets, dt, False, 0, pace.rows),
     )  # fmt: skip
 

@@ -255,7 +255,7 @@ class SelfCalibrating(NamedTuple):
             s.force, s.force_late, s.force_time, s.excess_square, s.jump_square,
         )  # fmt: skip
         if present(f):
-            mean_acc = mean_acc + share * (f - mean_acc)
+            mean_acc = mean_acc + sample.acc_dt / (0.5 + sample.acc_dt) * (f - mean_acc)
             calm = calm and within(f - mean_acc, self.rest_acc)
             f = (1.0 + known.acc_scale) * (f - known.acc_bias)
             before = vector(P, SENSOR, FORCE)

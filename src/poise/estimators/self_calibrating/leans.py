@@ -22,11 +22,12 @@ if TYPE_CHECKING:
 # keeps the turn about up, what the corrections since _HELD have made of tilt (3) and bias (3) if all of them were wrong, and
 # whether it has rested since the attitude began: begun in motion it may be a tilt that leans, and the field was learned by it.
 _PUSH, _RATE, _PUSHED, _ERROR, _SEEN = 18, 20, 21, 23, 26
-_HEADING, _MADE, _LEARNED, _RESTED = 18, 19, 22, 25
+_HEADING, _MADE, _LEARNED, _RESTED, _UNDER_WAY = 18, 19, 22, 25, 26
 _WANDER = 24  # where in the row of the sensor s_v² is
 _HELD = 30.0  # s, as long as recall.py goes back at least
 _SPEED = 10.0  # m/s: σ of a vehicle's speed
 _ROUND = 3.0  # watch_times: a bend that comes round sooner is upright in the mean that step 6 takes, too
+_LONGEST = 120.0  # s: after so long under way a tilt is the likelier
 _STANDS = 0.5  # of what a tilt would have moved the field by: where it has moved by less, no tilt is the likelier
 NOTHING_TOLD, UNDER_WAY, TILTED = 0, 1, 2
 
@@ -113,6 +114,15 @@ def take_correction(P: Floats, s: Sums) -> None:
     turned: Vec3 = s.rotation @ learned
     put(P, TURNED + 2, _MADE, kept * (made + turned) - vector(P, X, TURN))
     put(P, TURNED + 2, _LEARNED, kept * learned + vector(P, X, BIAS))
+
+
+@compiled
+def judged(P: Floats, lean: int, dt: float) -> int:
+    """*lean*, but that of a body that has been under way for too long: what is not looked at drifts."""
+    seconds = float(P[TURNED + 2, _UNDER_WAY])
+    seconds = seconds + dt if lean == UNDER_WAY else max(seconds - dt, 0.0)
+    P[TURNED + 2, _UNDER_WAY] = seconds
+    return TILTED if seconds > _LONGEST else lean
 
 
 @compiled

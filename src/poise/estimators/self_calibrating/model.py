@@ -61,7 +61,7 @@ ONE = SIZE  # the column of single numbers
 # What became, after a block, of what was known.
 GOES_ON, BEGUN_ANEW, ANOTHER_BIAS, ANOTHER_IRON, ANOTHER_NORTH, ANOTHER_VELOCITY = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
 
-TURNING, SHAKEN = 0.1, 0.1  # rad/s, with any bias, and of g, RMS since the start: beyond either it is in motion
+TURNING, SHAKEN = 0.15, 0.15  # rad/s, with any bias, and of g, RMS since the start: beyond either it is in motion
 IN_MOTION = 4.0  # initial tilts: σ of an attitude by one sample, or a few, in motion
 _NONE = Mat3(ZERO, ZERO, ZERO)
 

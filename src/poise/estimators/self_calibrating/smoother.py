@@ -21,7 +21,6 @@ from poise.data.flags import (
     KNOWN,
     LOST,
     RESET,
-    UNSETTLED,
 )
 from poise.data.learned import Learned
 from poise.data.recording import Recording
@@ -30,9 +29,10 @@ from poise.estimators.batch import feed
 from poise.estimators.engine import Stream
 from poise.estimators.self_calibrating.backward import apply, back
 from poise.estimators.self_calibrating.causal import SelfCalibrating
+from poise.estimators.self_calibrating.first_rows import turn_back
 from poise.estimators.self_calibrating.learned import KnownIron, begin_with_iron, irons_found, known_iron
+from poise.estimators.self_calibrating.model import BIAS, ENTRIES, ENTRY, SCALE, SENSOR, SIZE, Floats, sensor_of
 from poise.estimators.self_calibrating.model import COLUMNS as WIDTH
-from poise.estimators.self_calibrating.model import ENTRIES, ENTRY, SENSOR, SIZE, Floats, sensor_of
 from poise.estimators.self_calibrating.unproven import ANY, MOST, left_open
 from poise.estimators.wrapping import at_gravity, innermost
 from poise.math import arrays
@@ -113,6 +113,8 @@ class _Stream(Stream):
     def __init__(self, *args: Any, iron: KnownIron | None, **options: Any) -> None:
         super().__init__(*args, **options)
         self._iron = iron
+        self.first_A = np.zeros((3, 3))
+        """what was known of A at the start"""
 
     @property
     def P(self) -> Floats:
@@ -122,6 +124,7 @@ class _Stream(Stream):
 
     def _begin(self, rows: Floats) -> None:
         super()._begin(rows)
+        self.first_A = np.array(sensor_of(self.P).scale)
         if self._iron is not None:
             begin_with_iron(self.P, self._iron)
 
@@ -167,7 +170,10 @@ def _both_ways(
             heading -= method.local_field**2
         begun = Vec3(tilt, tilt, heading)
         apply(past.time, way.entry, past.table, way.time, way.corrections, begun, method.declination)
-        past.flags[way.entry == 0] &= ~np.uint32(UNSETTLED)  # levelled by what came after
+        end, injected = way.corrections[0, BIAS : BIAS + 3], way.corrections[0, 6 + BIAS : 9 + BIAS]
+        A = np.array(sensor_of(stream.P).scale) - stream.first_A
+        A_sigma = float(np.sqrt(np.diag(stream.P[SCALE : SCALE + 9, SCALE : SCALE + 9]).max()))
+        turn_back(past, np.flatnonzero(way.entry == 0), end + injected, A, A_sigma)
         _turn_what_was_before(past)
         if method.least_iron < ANY:
             judge_headings(stream.P, past, method.declination)

@@ -10,7 +10,7 @@ from math import atan2, radians, sqrt
 from typing import TYPE_CHECKING
 
 from poise.estimators.self_calibrating.covariance import forget
-from poise.estimators.self_calibrating.leans import NOTHING_TOLD, forget_lean, lean_of, take_lean, told
+from poise.estimators.self_calibrating.leans import NOTHING_TOLD, forget_lean, judged, lean_of, take_lean, told
 from poise.estimators.self_calibrating.model import BIAS, KEPT, SUMS, TURN, TURNED, VELOCITY, Floats, Sums, put, vector
 from poise.estimators.self_calibrating.recall import recall
 from poise.math.compiled import compiled
@@ -70,7 +70,7 @@ def contradicted(method: SelfCalibrating, P: Floats, s: Sums, still: Vec3, error
     least = method.watch_tilt + _OF_MOTION / method.watch_time * motion
     least_longer = method.watch_tilt + _OF_LONGER / (2.0 * method.watch_time) * motion
     soon, later = told(method, P, 0, x, y, least, field), told(method, P, 1, longer_x, longer_y, least_longer, field)
-    return max(soon, later)
+    return judged(P, max(soon, later), s.time)
 
 
 @compiled
