@@ -32,10 +32,8 @@ _MOST = 0.1  # of the usual step: a longer one counts as that much longer, for a
 _EARLY = 50.0  # rows: until then the usual step is the mean of all
 _BEGUN, _FOLLOWED = 20.0, 400.0  # rows that the line through stamps that scatter is drawn through: from, and at most
 _SCATTER = 4e-4  # (usual step)²: 2 % of it, squared; less is not worth a thought
-_TURNS_BACK, _STILL = (
-    -0.3,
-    -0.15,
-)  # correlation of successive steps. −0.5 where the stamps scatter, and 0 where the samples do; once it is known
+_TURNS_BACK = -0.3  # correlation of successive steps. −0.5 where the stamps scatter, and 0 where the samples do
+_STILL = -0.15  # the same, once it is known that they scatter
 _AGAIN = 0.3  # of the scatter: a pattern of steps that comes again, and no scatter, correlates over two steps too
 _LONG_STEP = 0.5  # more than the usual step: a row may have been lost
 _LATEST = 0.9  # (usual step): a stamp later than that is the next row's
@@ -196,9 +194,8 @@ def _after(pace: Pace, step: float, ahead: float, back: float, dt: float, line: 
     share = max(_OFTEN, 1.0 / (pace.rows + 1.0))
     off, before, earlier = min(dt / step - 1.0, 1.0), pace.off, pace.earlier
     scatter, turns, again = pace.scatter, pace.turns, pace.again
-    if (
-        off <= _LONG_STEP and before <= _LONG_STEP
-    ):  # a long one may be that of a lost row, and says nothing, nor the next
+    # A longer step may be that of a lost row: it says nothing, nor does the next.
+    if off <= _LONG_STEP and before <= _LONG_STEP:
         scatter += share * (off * off - scatter)
         turns += share * (off * before - turns)
         if earlier <= _LONG_STEP:

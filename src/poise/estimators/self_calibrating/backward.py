@@ -148,10 +148,7 @@ def back(log: Floats, future: Floats, corrections: Floats) -> None:
         if event == ANOTHER_VELOCITY:  # begun anew behind the block
             for k in range(VELOCITY, VELOCITY + 3):
                 forget_future(future, k)
-        if event not in (
-            GOES_ON,
-            ANOTHER_VELOCITY,
-        ):  # attitude and velocity begun anew: the future says nothing of those before
+        elif event != GOES_ON:  # attitude and velocity begun anew: the future says nothing of those before
             for k in range(3):
                 forget_future(future, TURN + k)
                 forget_future(future, VELOCITY + k)
@@ -166,7 +163,7 @@ def back(log: Floats, future: Floats, corrections: Floats) -> None:
             if event in (ANOTHER_BIAS, ANOTHER_IRON, ANOTHER_NORTH):  # and of A, which is that of before
                 for k in range(SCALE, SCALE + 9):
                     forget_future(future, k)
-        else:
+        if event in (GOES_ON, ANOTHER_VELOCITY):
             for m in range(int(log[at, ONE]) - 1, -1, -1):
                 back_through_correction(future, log, at + CORRECTIONS + 2 * m)
             back_through_block(future, log, at)

@@ -19,8 +19,9 @@ if TYPE_CHECKING:
 
 # Behind what has been turned, two rows keep the means over watch_time and over twice that: of the push (2) by a speed of 1 m/s,
 # of the rate's square, of the push with the force (2), of the field's error (3), and of the time it was seen for. The third
-# keeps the turn about up, what the corrections since _HELD have made of tilt (3) and bias (3) if all of them were wrong, and
-# whether it has rested since the attitude began: begun in motion it may be a tilt that leans, and the field was learned by it.
+# keeps the turn about up, what the corrections since _HELD have made of tilt (3) and bias (3) if all of them were wrong,
+# whether it has rested since the attitude began (begun in motion it may be a tilt that leans, and the field was learned by
+# it), and the seconds that it has been under way.
 _PUSH, _RATE, _PUSHED, _ERROR, _SEEN = 18, 20, 21, 23, 26
 _HEADING, _MADE, _LEARNED, _RESTED, _UNDER_WAY = 18, 19, 22, 25, 26
 _WANDER = 24  # where in the row of the sensor s_v² is
