@@ -9,8 +9,11 @@ from __future__ import annotations
 from poise.estimators.self_calibrating.covariance import forget
 from poise.estimators.self_calibrating.model import (
     ACC_BIAS,
+    ACC_BIAS_WIDENED,
     KEPT,
+    OWN,
     SCALE,
+    SCALE_WIDENED,
     Floats,
     Sensor,
     put,
@@ -30,6 +33,9 @@ _ACC, _ACC_VARIANCES, _LAST = (
     28,
     32,
 )  # and behind what watch.py keeps there: the accelerometer's bias (3) and scale, and P of these
+
+
+_YOUNGER, _OLDER = 5, 7  # in the row OWN: how often each had doubled what was expected
 
 
 @compiled
@@ -70,6 +76,7 @@ def recall(P: Floats, undisturbed: float) -> None:
         forget(P, SCALE + k, 1, float(P[row, _VARIANCES + k]))
     for k in range(4):
         forget(P, ACC_BIAS + k, 1, float(P[row, _ACC_VARIANCES + k]))
+    P[OWN, SCALE_WIDENED], P[OWN, ACC_BIAS_WIDENED] = P[OWN, _OLDER], P[OWN, _OLDER + 1]
     begin_memory(P, known)
 
 
@@ -83,6 +90,7 @@ def _take(P: Floats, known: Sensor) -> None:
     P[KEPT, _ACC + 3] = known.acc_scale
     for k in range(4):
         P[KEPT, _ACC_VARIANCES + k] = P[ACC_BIAS + k, ACC_BIAS + k]
+    P[OWN, _YOUNGER], P[OWN, _YOUNGER + 1] = P[OWN, SCALE_WIDENED], P[OWN, ACC_BIAS_WIDENED]
 
 
 @compiled
@@ -92,3 +100,5 @@ def _hand_on(P: Floats) -> None:
         P[KEPT + 1, j] = P[KEPT, j]
     for j in range(_ACC, _LAST):
         P[KEPT + 1, j] = P[KEPT, j]
+    for j in range(2):
+        P[OWN, _OLDER + j] = P[OWN, _YOUNGER + j]
