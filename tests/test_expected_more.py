@@ -16,10 +16,10 @@ from poise.estimators.self_calibrating.covariance import correct, forget
 from poise.estimators.self_calibrating.model import (
     ACC_BIAS,
     COLUMNS,
+    OF_SCALE,
     OWN,
     ROWS,
     SCALE,
-    SCALE_WIDENED,
     SENSOR,
     SIZE,
     H,
@@ -68,7 +68,7 @@ def test_to_have_expected_more_from_the_start_is_the_same(seed: int, count: int)
     measured(early, seed, 0.02, count)
     for _ in range(3):
         expect_more(late, 0.003, ACC_SIGMA)
-    widened = late[OWN, SCALE_WIDENED]
+    widened = late[OWN, OF_SCALE]
     assert widened in (0.0, 9.0)
     if widened == 0.0:  # nothing measured that is unlikely
         assert np.abs(late[X, SCALE : SCALE + 9]).max() < 0.02
@@ -81,11 +81,11 @@ def test_to_have_expected_more_from_the_start_is_the_same(seed: int, count: int)
 def test_it_is_asked_of_what_was_measured(size: float, expected: float) -> None:
     P = memory(0.003)
     expect_more(P, 0.003, ACC_SIGMA)
-    assert P[OWN, SCALE_WIDENED] == 0.0  # before there is any evidence
+    assert P[OWN, OF_SCALE] == 0.0  # before there is any evidence
     measured(P, 1, size, 100)
     for _ in range(3):
         expect_more(P, 0.003, ACC_SIGMA)
-    assert P[OWN, SCALE_WIDENED] == expected
+    assert P[OWN, OF_SCALE] == expected
 
 
 def test_what_is_known_beyond_doubt_stays() -> None:
@@ -95,7 +95,7 @@ def test_what_is_known_beyond_doubt_stays() -> None:
     put_sensor(P, Sensor(A, ZERO, ZERO, ZERO, 0.0, 0.0, 1.0, 1e-3, 0.01, ZERO, 0.0))
     for _ in range(20):
         expect_more(P, 0.003, ACC_SIGMA)
-    assert P[OWN, SCALE_WIDENED] > 0.0
+    assert P[OWN, OF_SCALE] > 0.0
     assert np.abs(P[X, SCALE : SCALE + 9]).max() < 1e-6
     assert np.abs(P[SCALE, SCALE] - 1e-10) < 1e-13
 
@@ -105,12 +105,12 @@ def test_no_more_than_no_sensor_has_and_none_where_none_is_expected() -> None:
     P[SENSOR, :9] = 0.9
     for _ in range(100):
         expect_more(P, 0.003, ACC_SIGMA)
-    assert P[OWN, SCALE_WIDENED] == 36.0
+    assert P[OWN, OF_SCALE] == 36.0
     assert 0.0 < P[SCALE, SCALE] <= (16 * 0.003) ** 2 * 1.001
     P = memory(0.0, 0.0)
     P[SENSOR, :9] = 0.9
     expect_more(P, 0.0, 0.0)
-    assert P[OWN, SCALE_WIDENED] == 0.0
+    assert P[OWN, OF_SCALE] == 0.0
     assert not P[X].any()
 
 
@@ -120,9 +120,9 @@ def test_a_memory_is_recalled_with_what_was_expected_then() -> None:
     P[SENSOR, :9] = 0.02
     for _ in range(6):
         expect_more(P, 0.003, ACC_SIGMA)
-    assert P[OWN, SCALE_WIDENED] == 18.0
+    assert P[OWN, OF_SCALE] == 18.0
     recall(P, 1.0)
-    assert P[OWN, SCALE_WIDENED] == 0.0
+    assert P[OWN, OF_SCALE] == 0.0
     assert P[SCALE, SCALE] == pytest.approx(0.003**2)
 
 

@@ -9,11 +9,11 @@ from __future__ import annotations
 from poise.estimators.self_calibrating.covariance import forget
 from poise.estimators.self_calibrating.model import (
     ACC_BIAS,
-    ACC_BIAS_WIDENED,
     KEPT,
+    OF_ACC_BIAS,
+    OF_SCALE,
     OWN,
     SCALE,
-    SCALE_WIDENED,
     Floats,
     Sensor,
     put,
@@ -35,7 +35,7 @@ _ACC, _ACC_VARIANCES, _LAST = (
 )  # and behind what watch.py keeps there: the accelerometer's bias (3) and scale, and P of these
 
 
-_YOUNGER, _OLDER = 5, 7  # in the row OWN: how often each had doubled what was expected
+_YOUNGER, _OLDER = 9, 11  # in the row OWN: how often each had doubled what was expected
 
 
 @compiled
@@ -76,7 +76,7 @@ def recall(P: Floats, undisturbed: float) -> None:
         forget(P, SCALE + k, 1, float(P[row, _VARIANCES + k]))
     for k in range(4):
         forget(P, ACC_BIAS + k, 1, float(P[row, _ACC_VARIANCES + k]))
-    P[OWN, SCALE_WIDENED], P[OWN, ACC_BIAS_WIDENED] = P[OWN, _OLDER], P[OWN, _OLDER + 1]
+    P[OWN, OF_SCALE], P[OWN, OF_ACC_BIAS] = P[OWN, _OLDER], P[OWN, _OLDER + 1]
     begin_memory(P, known)
 
 
@@ -90,7 +90,7 @@ def _take(P: Floats, known: Sensor) -> None:
     P[KEPT, _ACC + 3] = known.acc_scale
     for k in range(4):
         P[KEPT, _ACC_VARIANCES + k] = P[ACC_BIAS + k, ACC_BIAS + k]
-    P[OWN, _YOUNGER], P[OWN, _YOUNGER + 1] = P[OWN, SCALE_WIDENED], P[OWN, ACC_BIAS_WIDENED]
+    P[OWN, _YOUNGER], P[OWN, _YOUNGER + 1] = P[OWN, OF_SCALE], P[OWN, OF_ACC_BIAS]
 
 
 @compiled
