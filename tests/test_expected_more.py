@@ -105,8 +105,8 @@ def test_no_more_than_no_sensor_has_and_none_where_none_is_expected() -> None:
     P[SENSOR, :9] = 0.9
     for _ in range(100):
         expect_more(P, 0.003, ACC_SIGMA)
-    assert P[OWN, OF_SCALE] == 36.0
-    assert 0.0 < P[SCALE, SCALE] <= (16 * 0.003) ** 2 * 1.001
+    assert P[OWN, OF_SCALE] == 27.0
+    assert 0.0 < P[SCALE, SCALE] <= (8 * 0.003) ** 2 * 1.001
     P = memory(0.0, 0.0)
     P[SENSOR, :9] = 0.9
     expect_more(P, 0.0, 0.0)

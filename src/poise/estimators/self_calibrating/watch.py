@@ -149,13 +149,13 @@ def doubt_bias(method: SelfCalibrating, P: Floats) -> None:
     """The bias is as unknown as at the start, and so the attitude is uncertain by more than what was seen of its error."""
     row = SUMS + 2
     off = float(P[row, _MEAN]) ** 2 + float(P[row, _MEAN + 1]) ** 2
-    forget(P, BIAS, 3, method.initial_bias**2)
+    forget(P, BIAS, 3, 0.0)
     forget(P, TURN, 2, max(4.0 * off, method.initial_tilt**2))
     mean = vector(P, row, _FIELD)
     away = atan2(mean.x, mean.y)  # 0 where none has been seen
     heading = float(P[TURN + 2, TURN + 2]) + 9.0 * max(off, method.initial_tilt**2) + away * away
     forget(P, TURN + 2, 1, min(heading, method.initial_heading**2))
-    _turn_with_bias(P, method.initial_bias**2)
+    unsure_bias(P, method.initial_bias**2)
     forget(P, VELOCITY, 3, 1.0)
     recall(P, 0.5 * float(P[row, _FIELD + 4]))
     forget_watch(P)
@@ -163,18 +163,18 @@ def doubt_bias(method: SelfCalibrating, P: Floats) -> None:
 
 
 @compiled
-def _turn_with_bias(P: Floats, variance: float) -> None:
-    """What is off in the bias has turned the attitude, J δb: the one tells of the other (eq. 26)."""
+def unsure_bias(P: Floats, variance: float) -> None:
+    """P_b += *variance*: what is off in the bias has turned the attitude, J δb, and the one tells of the other (eq. 26)."""
+    for k in range(3):
+        P[BIAS + k, BIAS + k] += variance
     for i in range(3):
-        own = vector(P, TURNED + i, _PER_BIAS)
+        own = variance * vector(P, TURNED + i, _PER_BIAS)
         for k in range(3):
-            P[TURN + i, TURN + k] += variance * dot(own, vector(P, TURNED + k, _PER_BIAS))
-        put(P, TURN + i, BIAS, variance * own)
-        P[BIAS, TURN + i], P[BIAS + 1, TURN + i], P[BIAS + 2, TURN + i] = (
-            variance * own.x,
-            variance * own.y,
-            variance * own.z,
-        )
+            P[TURN + i, TURN + k] += dot(own, vector(P, TURNED + k, _PER_BIAS))
+        put(P, TURN + i, BIAS, vector(P, TURN + i, BIAS) + own)
+        P[BIAS, TURN + i] += own.x
+        P[BIAS + 1, TURN + i] += own.y
+        P[BIAS + 2, TURN + i] += own.z
 
 
 @compiled

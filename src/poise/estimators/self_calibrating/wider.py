@@ -7,7 +7,7 @@ Step 13 of ``docs/methods/self-calibrating.md``.
 
 from __future__ import annotations
 
-from math import log
+from math import log, radians
 
 from poise.estimators.self_calibrating.covariance import correct_one
 from poise.estimators.self_calibrating.model import (
@@ -20,11 +20,13 @@ from poise.estimators.self_calibrating.model import (
     Floats,
     X,
 )
+from poise.estimators.self_calibrating.watch import unsure_bias
 from poise.math.compiled import compiled
 
 _EVIDENCE = 3.0  # log of how much likelier all that was measured is: twenty times
-_ROUNDS = 4.0  # sixteen times as much as was expected
+_ROUNDS = 3.0  # eight times as much as was expected
 _AT_ONCE = 3  # numbers a block: the log has room for as many beside those of pseudo-velocity and magnetometer
+_WARMER = radians(0.1)  # rad/s: what some kelvin make of a bias
 _KNOWN = 0.25  # of the variance that was expected
 _JUDGED, _SUM = (
     1,
@@ -35,9 +37,15 @@ _KEPT_SCALE, _KEPT_ACC_BIAS = 0, 25  # where, in the row SENSOR
 
 @compiled
 def expect_more(P: Floats, scale: float, acc_bias: float) -> None:
-    """Where A, or the accelerometer's bias, is too large for the *scale* (σ) and *acc_bias* that were expected of it."""
+    """Where A, or the accelerometer's bias, is too large for the *scale* (σ) and *acc_bias* that were expected of it.
+
+    What passes for a larger A may be a bias that has changed a little: that is made as unsure, for both to be told apart.
+    """
+    before = float(P[OWN, OF_SCALE])
     if not _widen(P, SCALE, 9, _KEPT_SCALE, scale, OF_SCALE):
         _widen(P, ACC_BIAS, 3, _KEPT_ACC_BIAS, acc_bias, OF_ACC_BIAS)
+    elif before % 9.0 == 0.0:
+        unsure_bias(P, _WARMER**2)
 
 
 @compiled
