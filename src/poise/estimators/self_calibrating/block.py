@@ -176,8 +176,8 @@ def closed(method: SelfCalibrating, state: State, s: Sums, known: Sensor) -> Sta
             all_axes = P[0, 0] + P[1, 1] > 2.0 * method.sure_tilt**2
             told = from_behind(e, field)
             correct_field(P, told, field, (1.0 / s.mags) * s.to_iron, (1.0 / s.mags) * s.to_delay, all_axes, variance)
-    if not rest:  # 13. Of a sensor that is worse than expected
-        expect_more(P, method.initial_scale, method.initial_acc_bias)
+    if not rest:  # 13. Of a gyroscope that is worse than expected
+        expect_more(P, method.initial_scale)
     symmetrise(P)
     seen = e + field if s.mags > 0.0 and length > 0.0 else ZERO
     at_hand, upright = ZERO, ZERO  # body frame, in lengths of the field and in g

@@ -30,6 +30,7 @@ from poise.estimators.self_calibrating.model import (
     three,
 )
 from poise.estimators.self_calibrating.unproven import VAGUE, narrow, trace
+from poise.estimators.self_calibrating.wider import expect_as_learned
 from poise.math.compiled import compiled
 from poise.math.matrices import I3, Mat3
 from poise.math.vectors import ZERO, Vec3, norm
@@ -166,6 +167,7 @@ def take_over(P: Floats, learned: Learned, expected_iron: float, least_iron: flo
     for name in kept:
         for i in _PLACES[name]:
             P[i, i] += GROWTH[name] ** 2
+    expect_as_learned(P)
     if "hard_iron" in kept:
         beside = P[IRON : IRON + 3, IRON : IRON + 3]
         narrow(P, Mat3(*(Vec3(*map(float, row)) for row in beside)), ZERO)

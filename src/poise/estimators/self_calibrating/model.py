@@ -40,7 +40,7 @@ H, X, ROOM = 29, 30, 31  # of a correction: what is measured of the errors, thei
 TURNED = 32  # three rows: S_A = Σ R[:, i] g_j dt, column 3 i + j
 SUMS, SENSOR, KEPT, LENGTHS, OPEN, TURNS = 35, 38, 39, 41, 42, 43  # two rows keep what was known before: recall.py
 OWN = 44  # what delay.py keeps of the accelerometer's own interval
-OF_SCALE, OF_ACC_BIAS = 3, 6  # behind that: what wider.py keeps of either, first how often it has doubled σ of a number
+WIDENED = 3  # behind that: of how many elements of A, each in turn, wider.py has doubled σ, and what it has judged
 ROWS, COLUMNS = 45, 32
 # iron.py keeps, behind the sums of the second row, a block's sums of m (3) and |m|², the turn that the heading was set by, and
 # the m (3) of the last block that was taken. In the row of lengths, behind the means: how often an iron was found, the seconds

@@ -10,10 +10,9 @@ from poise.estimators.self_calibrating.covariance import forget
 from poise.estimators.self_calibrating.model import (
     ACC_BIAS,
     KEPT,
-    OF_ACC_BIAS,
-    OF_SCALE,
     OWN,
     SCALE,
+    WIDENED,
     Floats,
     Sensor,
     put,
@@ -34,8 +33,7 @@ _ACC, _ACC_VARIANCES, _LAST = (
     32,
 )  # and behind what watch.py keeps there: the accelerometer's bias (3) and scale, and P of these
 
-
-_YOUNGER, _OLDER = 9, 11  # in the row OWN: how often each had doubled what was expected
+_YOUNGER, _OLDER = WIDENED + 3, WIDENED + 4  # in the row OWN: of how many elements of A σ had been doubled
 
 
 @compiled
@@ -76,7 +74,7 @@ def recall(P: Floats, undisturbed: float) -> None:
         forget(P, SCALE + k, 1, float(P[row, _VARIANCES + k]))
     for k in range(4):
         forget(P, ACC_BIAS + k, 1, float(P[row, _ACC_VARIANCES + k]))
-    P[OWN, OF_SCALE], P[OWN, OF_ACC_BIAS] = P[OWN, _OLDER], P[OWN, _OLDER + 1]
+    P[OWN, WIDENED] = P[OWN, _OLDER]
     begin_memory(P, known)
 
 
@@ -90,7 +88,7 @@ def _take(P: Floats, known: Sensor) -> None:
     P[KEPT, _ACC + 3] = known.acc_scale
     for k in range(4):
         P[KEPT, _ACC_VARIANCES + k] = P[ACC_BIAS + k, ACC_BIAS + k]
-    P[OWN, _YOUNGER], P[OWN, _YOUNGER + 1] = P[OWN, OF_SCALE], P[OWN, OF_ACC_BIAS]
+    P[OWN, _YOUNGER] = P[OWN, WIDENED]
 
 
 @compiled
@@ -100,5 +98,4 @@ def _hand_on(P: Floats) -> None:
         P[KEPT + 1, j] = P[KEPT, j]
     for j in range(_ACC, _LAST):
         P[KEPT + 1, j] = P[KEPT, j]
-    for j in range(2):
-        P[OWN, _OLDER + j] = P[OWN, _YOUNGER + j]
+    P[OWN, _OLDER] = P[OWN, _YOUNGER]
