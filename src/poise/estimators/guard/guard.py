@@ -10,7 +10,6 @@ from poise.data.packet import Output, Sample
 from poise.estimators.guard.field import Field, begun, due, later, looked_at, plainly_across, unknown, vertical
 from poise.estimators.guard.levelling import (
     NOT_YET,
-    REST_RATE,
     Levelling,
     at_rest,
     enough,
@@ -18,13 +17,13 @@ from poise.estimators.guard.levelling import (
     mean_of,
     to_restart_from,
 )
-from poise.estimators.guard.look import NOTHING, Look, acc_limits, common, examined, gyr_limits, mag_limits, plain
-from poise.estimators.guard.samples import Channel, change, fresh, taken
-from poise.estimators.guard.stamps import UNKNOWN, Pace, counted_on
+from poise.estimators.guard.look import Look, acc_limits, common, examined, gyr_limits, mag_limits, untouched
+from poise.estimators.guard.samples import Channel, fresh
+from poise.estimators.guard.stamps import UNKNOWN, Pace
 from poise.estimators.protocol import output, restart, resting_sample, start, step, with_sensors
 from poise.math.compiled import compiled
 from poise.math.quaternions import IDENTITY, Quat, up_in_body
-from poise.math.vectors import ABSENT, ZERO, Vec3, dot, norm, present, within
+from poise.math.vectors import ABSENT, ZERO, Vec3, dot, norm, present
 
 _LEVELLED = 0.12  # rad: how far the mean force of three seconds in motion may be from up
 
@@ -113,18 +112,13 @@ class Guard(NamedTuple):
 
     def step(self, state: State, sample: Sample) -> State:
         """A common row is told by a few comparisons; all others are looked at one by one."""
-        ordinary = common(self, state, sample)
-        look = NOTHING
-        if ordinary:
-            clean = plain(self, state, sample)
-        else:
-            look = examined(self, state, sample)
-            if not look.goes_on:
-                return _waiting(self, state, look)
-            clean = look.sample
+        look = untouched(self, state, sample) if common(self, state, sample) else examined(self, state, sample)
+        if not look.goes_on:
+            return _waiting(self, state, look)
+        clean = look.sample
         inner = step(self.method, state.inner, clean)
         astray = state.astray
-        if (ordinary or look.usable) and within(clean.gyr, REST_RATE) and at_rest(clean, self.gravity):
+        if look.usable and at_rest(clean, self.gravity):
             astray = _astray(self, astray, clean, output(self.method, inner, clean).attitude)
         lost = astray > self.astray_time
         points = later(state.field, clean.dt)
@@ -136,21 +130,10 @@ class Guard(NamedTuple):
                 points = looked_at(points, up_in_body(output(self.method, inner, clean).attitude), seen, self.gap)
         aligned = state.aligned and not (vertical(points) and unknown(points))
         flags = (LOST if lost else 0) | (0 if aligned and not unknown(points) else HEADING_ARBITRARY)
-        if ordinary:
-            still, silent = within(clean.gyr, REST_RATE), state.mag_absent + clean.dt
-            mag, has_mag = state.mag, present(clean.mag)
-            if has_mag:
-                mag = taken(mag, clean.mag, change(mag, clean.mag), silent, still)
-            return State(
-                inner, taken(state.gyr, clean.gyr, change(state.gyr, clean.gyr), clean.dt, still),
-                taken(state.acc, sample.acc, change(state.acc, sample.acc), clean.dt, still), mag,
-                counted_on(state.pace, clean.dt), state.levelling, clean.dt, not lost, True, aligned, state.mag_seen,
-                points, lost, 0.0, 0.0, 0.0 if has_mag else silent, astray, 0.0, flags,
-            )  # fmt: skip
         return State(
-            inner, look.gyr, look.acc, look.mag, look.pace, NOT_YET, clean.dt, look.usable and look.doubt == 0.0,
-            True, aligned, look.mag_seen, points, lost, look.gyr_absent, look.acc_absent, look.mag_absent, astray,
-            look.doubt, look.flags | flags,
+            inner, look.gyr, look.acc, look.mag, look.pace, NOT_YET, clean.dt,
+            look.usable and look.doubt == 0.0 and not lost, True, aligned, look.mag_seen, points, lost,
+            look.gyr_absent, look.acc_absent, look.mag_absent, astray, look.doubt, look.flags | flags,
         )  # fmt: skip
 
     def output(self, state: State, sample: Sample) -> Output:

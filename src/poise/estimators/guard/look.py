@@ -37,9 +37,10 @@ from poise.estimators.guard.samples import (
     own_time,
     repeats,
     stirred,
+    taken,
     usual,
 )
-from poise.estimators.guard.stamps import UNKNOWN, Pace, evenly, timed
+from poise.estimators.guard.stamps import Pace, counted_on, evenly, timed
 from poise.math.compiled import compiled
 from poise.math.vectors import ABSENT, ZERO, Vec3, cross, dot, norm, present, within
 
@@ -73,13 +74,6 @@ class Look(NamedTuple):
     flags: int
 
 
-_EMPTY = fresh(ZERO, Limits(0.0, 0.0, 0.0, 0.0, 0.0))
-NOTHING = Look(
-    _EMPTY, _EMPTY, _EMPTY, UNKNOWN, Sample(0.0, ZERO, ZERO, ZERO, 0.0, 0.0, 0.0, 0.0, 0.0),
-    False, False, False, False, 0.0, 0.0, 0.0, False, 0.0, 0,
-)  # fmt: skip
-
-
 @compiled
 def common(guard: Guard, state: State, sample: Sample) -> bool:
     """Whether nothing has to be looked at: an even step, and samples as they usually are."""
@@ -93,7 +87,6 @@ def common(guard: Guard, state: State, sample: Sample) -> bool:
         field = not _measured(sample.mag) and not (silent and state.mag_seen)
     return (
         state.plain
-        and not state.lost
         and field
         and evenly(state.pace, sample.dt, guard.gap)
         and usual(gyr, sample.gyr, change(gyr, sample.gyr), gyr_limits(guard))
@@ -109,15 +102,20 @@ def _measured(field: Vec3) -> bool:
 
 
 @compiled
-def plain(guard: Guard, state: State, sample: Sample) -> Sample:
-    """A common row as the method may see it."""
-    dt, field = sample.dt, sample.mag if _measured(sample.mag) else ABSENT
-    force, acc_dt = sample.acc, own_time(state.acc, dt)
-    if repeats(state.acc, force):
-        force = ABSENT
-    return Sample(
-        dt, sample.gyr, force, field, sample.acc_age, sample.mag_age, min(acc_dt, guard.gap),
-        min(state.mag_absent + dt, guard.gap), 0.0,
+def untouched(guard: Guard, state: State, sample: Sample) -> Look:
+    """What a common row is found to be: what the method may see of it is all that was measured."""
+    gyr, acc, mag, dt = state.gyr, state.acc, state.mag, sample.dt
+    still, silent, has_mag = within(sample.gyr, REST_RATE), state.mag_absent + dt, _measured(sample.mag)
+    if has_mag:
+        mag = taken(mag, sample.mag, change(mag, sample.mag), silent, still)
+    clean = Sample(
+        dt, sample.gyr, ABSENT if repeats(acc, sample.acc) else sample.acc, sample.mag if has_mag else ABSENT,
+        sample.acc_age, sample.mag_age, min(own_time(acc, dt), guard.gap), min(silent, guard.gap), 0.0,
+    )  # fmt: skip
+    return Look(
+        taken(gyr, sample.gyr, change(gyr, sample.gyr), dt, still), taken(acc, sample.acc, change(acc, sample.acc), dt, still),
+        mag, counted_on(state.pace, dt), clean, True, True, True, state.mag_seen,
+        0.0, 0.0, 0.0 if has_mag else silent, False, 0.0, 0,
     )  # fmt: skip
 
 
