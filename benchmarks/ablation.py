@@ -25,7 +25,6 @@ made          made recordings of an inexpensive sensor, and of one with white no
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
@@ -37,7 +36,6 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 import poise
-from accuracy import trial_files
 from poise.data.flags import HEADING_UNPROVEN, MAG_DISTURBED, REST
 from poise.data.packet import Packet
 from poise.data.recording import Recording
@@ -47,10 +45,10 @@ from poise.estimators.self_calibrating.model import ACC_DELAY, SENSOR
 from poise.math import arrays
 from poise.peers import PEERS
 from poise.simulation import Sensor, Triad, forearm, measure, phone, robot
-from regimes import Table, Trials
+from regimes import Table, Trials, main
 from scores import CHOSEN, halves
 from studies import block_means
-from tables import Cell, table
+from tables import Cell
 
 Floats = NDArray[np.float64]
 Run = Callable[[Recording], poise.Attitude]
@@ -530,12 +528,4 @@ SECTIONS: dict[str, Callable[[Trials], Iterator[Table]]] = {
 }  # fmt: skip
 
 if __name__ == "__main__":
-    names = sys.argv[1:] or list(SECTIONS)
-    if unknown := [name for name in names if name not in SECTIONS]:
-        sys.exit(f"no section {unknown[0]!r}\n\n{__doc__}")
-    if not (files := trial_files()):
-        sys.exit("no BROAD trials here; POISE_DATA says where they are")
-    recordings = {file.stem: poise.read(file) for file in files}
-    for section in names:
-        for title, columns, rows in SECTIONS[section](recordings):
-            print(f"\n{title}\n{table(columns, rows, digits=2)}", flush=True)
+    main(SECTIONS, __doc__)

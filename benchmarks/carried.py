@@ -9,7 +9,6 @@ slew        corrections given out at 5 deg/s on every trial, and around a magnet
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from math import inf, radians
@@ -21,12 +20,11 @@ from scipy.spatial.transform import Rotation
 
 import poise
 from ablation import FLAGSHIP, slashed
-from accuracy import trial_files
 from poise.data.recording import Recording
 from poise.math import arrays
-from regimes import Table, Trials
+from regimes import Table, Trials, main
 from scores import halves
-from tables import Cell, table
+from tables import Cell
 
 Floats = NDArray[np.float64]
 # Trials whose gyroscopes have the same bias and the same A: see `sensors`.
@@ -189,12 +187,4 @@ def slew(trials: Trials) -> Iterator[Table]:
 SECTIONS: dict[str, Callable[[Trials], Iterator[Table]]] = {"sensors": sensors, "start": start, "slew": slew}
 
 if __name__ == "__main__":
-    names = sys.argv[1:] or list(SECTIONS)
-    if unknown := [name for name in names if name not in SECTIONS]:
-        sys.exit(f"no section {unknown[0]!r}\n\n{__doc__}")
-    if not (files := trial_files()):
-        sys.exit("no BROAD trials here; POISE_DATA says where they are")
-    recordings = {file.stem: poise.read(file) for file in files}
-    for section in names:
-        for title, columns, rows in SECTIONS[section](recordings):
-            print(f"\n{title}\n{table(columns, rows, digits=2)}", flush=True)
+    main(SECTIONS, __doc__)

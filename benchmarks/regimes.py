@@ -6,7 +6,7 @@ python benchmarks/regimes.py [armband] [tilt] [gated] [stamps] [sigma]     all o
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -201,13 +201,19 @@ REGIMES: dict[str, Callable[[Trials], Iterator[Table]]] = {
     "armband": armband, "tilt": tilt, "gated": gated, "stamps": stamps, "sigma": sigma,
 }  # fmt: skip
 
-if __name__ == "__main__":
-    names = sys.argv[1:] or list(REGIMES)
-    if unknown := [name for name in names if name not in REGIMES]:
-        sys.exit(f"no regime {unknown[0]!r}\n\n{__doc__}")
+
+def main(sections: Mapping[str, Callable[[Trials], Iterator[Table]]], usage: str | None) -> None:
+    """Print the tables of the sections named on the command line, or of all."""
+    names = sys.argv[1:] or list(sections)
+    if unknown := [name for name in names if name not in sections]:
+        sys.exit(f"no section {unknown[0]!r}\n\n{usage}")
     if not (files := trial_files()):
         sys.exit("no BROAD trials here; POISE_DATA says where they are")
     recordings = {file.stem: poise.read(file) for file in files}
     for name in names:
-        for title, columns, rows in REGIMES[name](recordings):
+        for title, columns, rows in sections[name](recordings):
             print(f"\n{title}\n{table(columns, rows, digits=2)}", flush=True)
+
+
+if __name__ == "__main__":
+    main(REGIMES, __doc__)

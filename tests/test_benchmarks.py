@@ -14,15 +14,18 @@ from scipy.spatial.transform import Rotation
 from data_files import data_path
 from helpers import wxyz
 from poise import AdaptiveGain, Attitude, Recording, TwoStage, estimate
+from poise.data.flags import LOST
 from poise.math import arrays
 from poise.peers import PEERS, installed
-from poise.simulation import PERFECT, Sensor, Triad, at_rest, forearm, measure
+from poise.simulation import PERFECT, Motion, Sensor, Triad, at_rest, forearm, measure
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
 
 import accuracy
+import conditions
 import scores
 import speed
+import vehicles
 import worlds
 from scores import Score
 from stacked import Stacked
@@ -268,3 +271,52 @@ def test_a_sensor_without_some_of_its_errors_keeps_the_others() -> None:
     assert (no_iron.mag.bias, no_iron.mag.noise, no_iron.gyr) == (0.0, whole.mag.noise, whole.gyr)
     assert worlds.without(whole, "gyroscope").gyr == Triad()
     assert worlds.without(whole, "accelerometer").mag == whole.mag
+
+
+# -- vehicles and worse sensors ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("motion", "push"),
+    [
+        (vehicles.circling(0.8, 5.0, 1), 0.8**2 * 5.0),
+        (vehicles.car(1), 12.0 * 0.35),
+        (vehicles.weaving(0.3, 1), 3.0),
+        (vehicles.weaving(0.0, 1), 0.0),
+    ],
+)
+def test_a_vehicle_is_pushed_as_it_goes_and_ends_where_it_stands(motion: Motion, push: float) -> None:
+    recording = measure(motion, PERFECT)
+    force = arrays.rotate(motion.quat, recording.acc)[:, :2]
+    np.testing.assert_allclose(force, motion.acceleration[:, :2], atol=1e-6)
+    slow = np.column_stack([np.convolve(axis, np.ones(100) / 100.0, "same") for axis in motion.acceleration.T])
+    ahead = arrays.rotate(arrays.conjugate(motion.quat), slow)
+    assert np.abs(ahead[:, 0]).max() == pytest.approx(push, abs=0.3)
+    assert not np.linalg.norm(motion.acceleration[-500:], axis=1).any()
+    np.testing.assert_allclose(motion.rate, recording.gyr, atol=0.005)
+    np.testing.assert_allclose(motion.acceleration.sum(axis=0) / vehicles.RATE, 0.0, atol=0.1)  # m/s
+
+
+def test_a_slower_accelerometer_has_its_samples_where_it_gives_them() -> None:
+    rows = np.arange(21.0).reshape(7, 3)
+    assert conditions.repeated(rows, 3)[:, 0].tolist() == [0.0, 0.0, 0.0, 9.0, 9.0, 9.0, 18.0]
+    assert np.flatnonzero(np.isfinite(conditions.single(rows, 3)[:, 0])).tolist() == [0, 3, 6]
+    np.testing.assert_array_equal(conditions.means(rows, 3)[:, 0], [np.nan, np.nan, 3.0, np.nan, np.nan, 12.0, np.nan])
+
+
+def test_what_sigma_does_not_cover_is_counted_where_the_rows_are_valid() -> None:
+    made = measure(at_rest(duration=4.0), PERFECT)
+    attitude = Attitude.of(made.time, arrays.turn_about_up(np.full(len(made), 0.1)))
+    attitude.sigma[:] = 0.05, 0.05, 0.03
+    attitude.sigma[:100, 2] = 0.04
+    attitude.flags[200:] = LOST
+    share = np.nanmean(conditions.outside(attitude, made), axis=0)
+    np.testing.assert_allclose(share, [0.5, 0.0, 0.5])
+
+
+def test_a_bias_is_known_once_it_is_right_for_ten_seconds() -> None:
+    still = conditions.stepped(measure(vehicles.circling(0.5, 0.0, 0, seconds=90.0), Sensor(), seed=0), 2.0)
+    assert still.moving is not None
+    assert not still.moving[still.time < conditions.STEP].any()
+    assert 0.0 < conditions.until_known(still, 2.0) < 20.0
+    assert conditions.until_known(still, 4.0) == np.inf

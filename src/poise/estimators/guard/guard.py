@@ -10,7 +10,6 @@ from poise.data.packet import Output, Sample
 from poise.estimators.guard.field import Field, begun, due, later, looked_at, plainly_across, unknown, vertical
 from poise.estimators.guard.levelling import (
     NOT_YET,
-    REST_RATE,
     Levelling,
     at_rest,
     enough,
@@ -18,19 +17,20 @@ from poise.estimators.guard.levelling import (
     mean_of,
     to_restart_from,
 )
-from poise.estimators.guard.look import NOTHING, Look, acc_limits, common, examined, gyr_limits, mag_limits, plain
-from poise.estimators.guard.samples import Channel, change, fresh, taken
-from poise.estimators.guard.stamps import UNKNOWN, Pace, counted_on
+from poise.estimators.guard.look import Look, acc_limits, common, examined, gyr_limits, mag_limits, untouched
+from poise.estimators.guard.samples import Channel, fresh
+from poise.estimators.guard.stamps import UNKNOWN, Pace
 from poise.estimators.protocol import output, restart, resting_sample, start, step, with_sensors
 from poise.math.compiled import compiled
 from poise.math.quaternions import IDENTITY, Quat, up_in_body
-from poise.math.vectors import ABSENT, ZERO, Vec3, dot, norm, present, within
+from poise.math.vectors import ABSENT, ZERO, Vec3, dot, norm, present
 
 _LEVELLED = 0.12  # rad: how far the mean force of three seconds in motion may be from up
 
 
-class State(NamedTuple):
-    inner: Any
+class Past(NamedTuple):
+    """What the guard itself remembers."""
+
     gyr: Channel  # its value is the last rate that was measured: what a loss is bridged with
     acc: Channel
     mag: Channel
@@ -49,6 +49,13 @@ class State(NamedTuple):
     astray: float  # s at rest with a tilt that gravity contradicts
     doubt: float  # rad: how far the body may have turned unmeasured
     flags: int
+
+
+class State(NamedTuple):
+    """The two are apart for speed: a function that is given an array, and branches, counts its owners."""
+
+    inner: Any
+    past: Past
 
 
 class Guard(NamedTuple):
@@ -105,107 +112,98 @@ class Guard(NamedTuple):
         aligned = seen and has_mag
         flags = (0 if seen else INITIALISING) | (0 if aligned else HEADING_ARBITRARY)
         field = mag if has_mag else ZERO
-        return State(
-            inner, fresh(gyr, gyr_limits(self)), fresh(acc if seen else ZERO, acc_limits(self)),
+        after = Past(
+            fresh(gyr, gyr_limits(self)), fresh(acc if seen else ZERO, acc_limits(self)),
             fresh(field, mag_limits(self, field)), UNKNOWN, NOT_YET, 0.0, False,
             seen, aligned, False, points, False, 0.0, 0.0, 0.0, 0.0, 0.0, flags,
         )  # fmt: skip
+        return State(inner, after)
 
     def step(self, state: State, sample: Sample) -> State:
         """A common row is told by a few comparisons; all others are looked at one by one."""
-        ordinary = common(self, state, sample)
-        look = NOTHING
-        if ordinary:
-            clean = plain(self, state, sample)
-        else:
-            look = examined(self, state, sample)
-            if not look.goes_on:
-                return _waiting(self, state, look)
-            clean = look.sample
+        past = state.past
+        look = untouched(self, past, sample) if common(self, past, sample) else examined(self, past, sample)
+        if not look.goes_on:
+            return _waiting(self, state, look)
+        clean = look.sample
         inner = step(self.method, state.inner, clean)
-        astray = state.astray
-        if (ordinary or look.usable) and within(clean.gyr, REST_RATE) and at_rest(clean, self.gravity):
+        astray = past.astray
+        if look.usable and at_rest(clean, self.gravity):
             astray = _astray(self, astray, clean, output(self.method, inner, clean).attitude)
         lost = astray > self.astray_time
-        points = later(state.field, clean.dt)
+        points = later(past.field, clean.dt)
         seen = sample.mag if vertical(points) else clean.mag  # one that is faulty points nowhere
         if due(points, seen):
             if plainly_across(points, sample.acc, seen):
                 points = Field(points.along, points.across, 0.0)
             else:
                 points = looked_at(points, up_in_body(output(self.method, inner, clean).attitude), seen, self.gap)
-        aligned = state.aligned and not (vertical(points) and unknown(points))
+        aligned = past.aligned and not (vertical(points) and unknown(points))
         flags = (LOST if lost else 0) | (0 if aligned and not unknown(points) else HEADING_ARBITRARY)
-        if ordinary:
-            still, silent = within(clean.gyr, REST_RATE), state.mag_absent + clean.dt
-            mag, has_mag = state.mag, present(clean.mag)
-            if has_mag:
-                mag = taken(mag, clean.mag, change(mag, clean.mag), silent, still)
-            return State(
-                inner, taken(state.gyr, clean.gyr, change(state.gyr, clean.gyr), clean.dt, still),
-                taken(state.acc, sample.acc, change(state.acc, sample.acc), clean.dt, still), mag,
-                counted_on(state.pace, clean.dt), state.levelling, clean.dt, not lost, True, aligned, state.mag_seen,
-                points, lost, 0.0, 0.0, 0.0 if has_mag else silent, astray, 0.0, flags,
-            )  # fmt: skip
-        return State(
-            inner, look.gyr, look.acc, look.mag, look.pace, NOT_YET, clean.dt, look.usable and look.doubt == 0.0,
-            True, aligned, look.mag_seen, points, lost, look.gyr_absent, look.acc_absent, look.mag_absent, astray,
-            look.doubt, look.flags | flags,
+        after = Past(
+            look.gyr, look.acc, look.mag, look.pace, NOT_YET, clean.dt,
+            look.usable and look.doubt == 0.0 and not lost, True, aligned, look.mag_seen, points, lost,
+            look.gyr_absent, look.acc_absent, look.mag_absent, astray, look.doubt, look.flags | flags,
         )  # fmt: skip
+        return State(inner, after)
 
     def output(self, state: State, sample: Sample) -> Output:
         """What the method says; it sees the rate, not the other sensors, which it had in ``step``.
 
         Doubt is part of sigma. While the method waits to be started anew, what it says stands still.
         """
-        seen = Sample(state.dt, state.gyr.value, ABSENT, ABSENT, 0.0, 0.0, state.dt, state.dt, 0.0)
+        past = state.past
+        seen = Sample(past.dt, past.gyr.value, ABSENT, ABSENT, 0.0, 0.0, past.dt, past.dt, 0.0)
         out = output(self.method, state.inner, seen)
-        attitude = out.attitude if state.started else Quat(ABSENT.x, ABSENT.x, ABSENT.x, ABSENT.x)
+        attitude = out.attitude if past.started else Quat(ABSENT.x, ABSENT.x, ABSENT.x, ABSENT.x)
         sigma = out.sigma
-        if state.doubt > 0.0 or state.lost:
-            doubt = pi if state.lost else state.doubt
+        if past.doubt > 0.0 or past.lost:
+            doubt = pi if past.lost else past.doubt
             sigma = Vec3(_with(sigma.x, doubt), _with(sigma.y, doubt), _with(sigma.z, doubt))
-        return Output(out.dt, attitude, out.rate, out.bias, sigma, out.bias_sigma, out.flags | state.flags)
+        return Output(out.dt, attitude, out.rate, out.bias, sigma, out.bias_sigma, out.flags | past.flags)
 
 
 @compiled
 def _waiting(guard: Guard, state: State, look: Look) -> State:
     """The method does not step: it waits for samples to start from, or is started from this one."""
+    past = state.past
     sample, lost, doubt, flags = look.sample, look.lost, look.doubt, look.flags
-    levelling, ready = state.levelling, False
+    levelling, ready = past.levelling, False
     if sample.dt > 0.0:
         bias = output(guard.method, state.inner, sample).bias
         levelling = gathered(guard, levelling, sample, sample.gyr - bias, look.turned)
         ready = look.usable and (not lost or enough(guard, levelling))
     if not ready:
-        if not state.started:
+        if not past.started:
             flags |= INITIALISING
         elif lost:
             flags |= LOST
         elif doubt > guard.valid_doubt:
             flags |= UNSETTLED
-        flags |= 0 if state.aligned else HEADING_ARBITRARY
-        return State(
-            state.inner, look.gyr, look.acc, look.mag, look.pace, levelling, sample.dt, False,
-            state.started, state.aligned, look.mag_seen, state.field, lost, look.gyr_absent, look.acc_absent, look.mag_absent,
+        flags |= 0 if past.aligned else HEADING_ARBITRARY
+        after = Past(
+            look.gyr, look.acc, look.mag, look.pace, levelling, sample.dt, False,
+            past.started, past.aligned, look.mag_seen, past.field, lost, look.gyr_absent, look.acc_absent, look.mag_absent,
             0.0, doubt, flags,
         )  # fmt: skip
+        return State(state.inner, after)
     before = output(guard.method, state.inner, sample)
     if lost:
         sample = mean_of(levelling, sample)
         doubt = _LEVELLED if levelling.moved else 0.0
     has_mag = present(sample.mag)
-    if state.started:
+    if past.started:
         flags |= RESET
         sample = to_restart_from(guard, before.attitude, sample, lost)
     inner = restart(guard.method, state.inner, sample, before.bias)  # from the placeholder too: what it knew stays
-    kept = state.aligned and (not state.mag_seen or not guard.follows_mag)
-    aligned = kept if state.started and not guard.follows_mag else has_mag or (state.started and kept)
+    kept = past.aligned and (not past.mag_seen or not guard.follows_mag)
+    aligned = kept if past.started and not guard.follows_mag else has_mag or (past.started and kept)
     flags |= (0 if aligned else HEADING_ARBITRARY) | (UNSETTLED if doubt > guard.valid_doubt else 0)
-    return State(
-        inner, look.gyr, look.acc, look.mag, look.pace, NOT_YET, sample.dt, doubt == 0.0,
-        True, aligned, look.mag_seen, state.field, False, look.gyr_absent, look.acc_absent, look.mag_absent, 0.0, doubt, flags,
+    after = Past(
+        look.gyr, look.acc, look.mag, look.pace, NOT_YET, sample.dt, doubt == 0.0,
+        True, aligned, look.mag_seen, past.field, False, look.gyr_absent, look.acc_absent, look.mag_absent, 0.0, doubt, flags,
     )  # fmt: skip
+    return State(inner, after)
 
 
 @compiled

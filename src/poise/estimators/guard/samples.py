@@ -117,7 +117,7 @@ def taken(channel: Channel, value: Vec3, changed: float, dt: float, still: bool)
     lively = channel.lively + dt if channel.lively < (2.0 if still else 1.0) else channel.lively
     old = channel.value
     again = (1.0 if value.x == old.x else 0.0) + (1.0 if value.y == old.y else 0.0) + (1.0 if value.z == old.z else 0.0)
-    repeating = channel.repeats + _SHARE * (again / 3.0 - channel.repeats)
+    repeating = channel.repeats + _SHARE * (again * (1.0 / 3.0) - channel.repeats)
     at_once = 1.0 if again == 0.0 and channel.same > 0.0 else 0.0
     held = channel.held + _NEW * (at_once - channel.held)
     return Channel(value, mean, channel.most, channel.evidence, repeating, 0.0, longest, lively, every, 0, held)
