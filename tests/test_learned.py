@@ -282,7 +282,7 @@ def test_without_a_magnetometer_the_heading_drifts_less() -> None:
         attitude = poise.estimate(FLAGSHIP, recording, start_from=start_from)
         heading = np.unwrap(np.degrees(poise.evaluate(attitude, recording).heading), period=360.0)
         ends.append(np.abs(heading - heading[0]).max())
-    assert ends[1] < 0.5 * ends[0]
+    assert ends[1] < 0.6 * ends[0]
 
 
 def test_the_hard_iron_is_carried_in_the_magnetometers_unit() -> None:

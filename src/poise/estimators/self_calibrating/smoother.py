@@ -60,7 +60,7 @@ def smooth(
     """The attitude of every row of *recording*, from all of it: before the row and after (``SelfCalibrating`` only).
 
     The way back starts *overlap* seconds behind each *window* of them, while the way forward goes on; both together take
-    about 80 kB of memory a second, at the default length of a block. Other arguments as for :func:`estimate`;
+    about 130 kB of memory a second, at the default length of a block. Other arguments as for :func:`estimate`;
     ``attitude.learning`` is that of the way forward: of what walks the way back gives the bias, in every row, and what does
     not is that of the last row. A hard iron that the way forward finds is there from the start on,
     and so is a heading that it sets by another field.

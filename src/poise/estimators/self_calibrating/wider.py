@@ -15,36 +15,41 @@ from poise.math.compiled import compiled
 
 _EVIDENCE = 3.0  # log of how much likelier all that was measured is: twenty times
 _ROUNDS = 2.0  # four times as much as was expected
-_AT_ONCE = 3  # elements a block: the log has room for as many beside those of pseudo-velocity and magnetometer
-_KNOWN = 0.25  # of the variance that was expected
+_KNOWN, _UNTOLD = 0.25, 0.9  # of the variance that was expected: below and above that
 _BIAS = radians(0.3)  # rad/s: what of the evidence may be another bias
-# In the row OWN, behind how many elements have been doubled (WIDENED): which have been judged, a bit each, and what they said.
+# In the row OWN, behind how often σ was doubled (WIDENED): which elements have been judged, a bit each, and what they said.
 _JUDGED, _SAID = WIDENED + 1, WIDENED + 2
 _ALL = 0x1FF
 
 
 @compiled
 def expect_more(P: Floats, sigma: float) -> None:
-    """Doubles σ of A's elements as it was at the start, *sigma*, where A is too large for that: three a block (eq. 38).
+    """Doubles σ of A's elements as it was at the start, *sigma*, where A is too large for that (eq. 38).
 
     That they are 0 ± σ was the first measurement. To have expected ± 2σ is one more, of a negative variance. What passes for
     a larger A may be another bias: that is made less sure as well, for the two to be told apart.
     """
-    if sigma == 0.0:
-        return
-    done = float(P[OWN, WIDENED])
-    rounds = done // 9.0
+    rounds = float(P[OWN, WIDENED])
     expected = (sigma * 2.0**rounds) ** 2
-    if done == 9.0 * rounds:
-        if rounds == _ROUNDS or not unlikely(P, expected):
-            return
-        unsure_bias(P, _BIAS**2)
-        P[OWN, _SAID] = 0.0
-    for _ in range(_AT_ONCE):
-        k = int(done - 9.0 * rounds)
+    if rounds == _ROUNDS or sigma == 0.0 or not turned_about_all(P, expected) or not unlikely(P, expected):
+        return
+    unsure_bias(P, _BIAS**2)
+    for k in range(9):
         correct_one(P, SCALE + k, -float(P[SENSOR, k]), -4.0 / 3.0 * expected)
-        done += 1.0
-    P[OWN, WIDENED] = done
+    P[OWN, WIDENED] = rounds + 1.0
+    P[OWN, _SAID] = 0.0
+
+
+@compiled
+def turned_about_all(P: Floats, expected: float) -> bool:
+    """Whether each column of A, that of a turn about one axis, has begun to show.
+
+    What goes round and round about up is pushed across its way, and that passes for a turn about another axis.
+    """
+    most = 0.0
+    for j in range(SCALE, SCALE + 3):
+        most = max(most, min(P[j, j], P[j + 3, j + 3], P[j + 6, j + 6]))
+    return most <= _UNTOLD * expected
 
 
 @compiled
