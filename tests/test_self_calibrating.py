@@ -420,6 +420,19 @@ def test_the_future_makes_it_better(seed: int) -> None:
     assert offline < 0.9 * live
 
 
+def test_the_future_never_knows_more_than_there_was_to_know() -> None:
+    """Where an iron was found and the attitude went on, what the future said made variances below 0, and sigma 0."""
+    length = 250.0
+    speed = 2.0 * up_and_down(12.0, 240.0, 3.0, length)
+    recording = driven(speed, 0.5 * up_and_down(20.0, 238.0, 2.0, length), Sensor(), 3)
+    step = np.radians(2.0) * (recording.time > 60.0)
+    stepped = recording.with_samples(gyr=recording.gyr + step[:, None] * [1.0, 0.0, 0.0])
+    smoothed, causal = poise.smooth(stepped), poise.estimate(FLAGSHIP, stepped)
+    assert (smoothed.sigma > np.radians(0.1)).all()
+    assert (smoothed.bias_sigma > 0.0).all()
+    assert (causal.flags & int(Flag.HARD_IRON)).any()
+
+
 def test_windows_do_not_show() -> None:
     whole = poise.smooth(trial("35"), window=1e9)
     assert trial("35").duration > 120.0

@@ -113,8 +113,23 @@ def back_through_block(future: Floats, P: Floats, at: int) -> None:
 
 
 @compiled
+def leave_open(future: Floats, k: int) -> None:
+    """The future of one error is any: what it says of the others is what it says whatever that is (eq. 21a)."""
+    own = float(future[k, k])
+    if own > 0.0:
+        pull = float(future[SIZE, k]) / own
+        for i in range(SIZE):
+            future[SIZE, i] -= future[i, k] * pull
+            future[SIZE + 1, i] = future[i, k]
+        for i in range(SIZE):
+            for j in range(SIZE):
+                future[i, j] -= future[SIZE + 1, i] * future[SIZE + 1, j] / own
+    forget_future(future, k)
+
+
+@compiled
 def forget_future(future: Floats, k: int) -> None:
-    """What the future says of one error."""
+    """What the future says of one error that is unrelated to all others from here on."""
     for i in range(SIZE):
         future[i, k], future[k, i] = 0.0, 0.0
     future[SIZE, k] = 0.0
@@ -148,21 +163,23 @@ def back(log: Floats, future: Floats, corrections: Floats) -> None:
         if event == ANOTHER_VELOCITY:  # begun anew behind the block
             for k in range(VELOCITY, VELOCITY + 3):
                 forget_future(future, k)
-        elif event != GOES_ON:  # attitude and velocity begun anew: the future says nothing of those before
-            for k in range(3):
-                forget_future(future, TURN + k)
-                forget_future(future, VELOCITY + k)
+        elif event != GOES_ON:  # first what is unrelated from here on
             if event == ANOTHER_BIAS:
-                for k in range(BIAS, BIAS + 3):
-                    forget_future(future, k)
+                for k in range(3):
+                    forget_future(future, TURN + k)
+                    forget_future(future, VELOCITY + k)
+                    forget_future(future, BIAS + k)
                 for k in range(ACC_BIAS, SIZE):
                     forget_future(future, k)
             if event in (ANOTHER_IRON, ANOTHER_NORTH):
                 for k in range(FIELD, MAG_DELAY + 1):
                     forget_future(future, k)
-            if event in (ANOTHER_BIAS, ANOTHER_IRON, ANOTHER_NORTH):  # and of A, which is that of before
+            if event in (ANOTHER_BIAS, ANOTHER_IRON, ANOTHER_NORTH):  # and A, which is that of before
                 for k in range(SCALE, SCALE + 9):
                     forget_future(future, k)
+            for k in range(3):  # then attitude and velocity, of which some go on
+                leave_open(future, TURN + k)
+                leave_open(future, VELOCITY + k)
         if event in (GOES_ON, ANOTHER_VELOCITY):
             for m in range(int(log[at, ONE]) - 1, -1, -1):
                 back_through_correction(future, log, at + CORRECTIONS + 2 * m)

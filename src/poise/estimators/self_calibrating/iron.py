@@ -26,6 +26,7 @@ from poise.estimators.self_calibrating.model import (
 )
 from poise.estimators.self_calibrating.recall import scale_before
 from poise.estimators.self_calibrating.unproven import ANY, VAGUE, trace
+from poise.estimators.self_calibrating.wider import expect_as_learned, expected_now
 from poise.math.compiled import compiled
 from poise.math.matrices import Mat3
 from poise.math.vectors import ZERO, Vec3, dot, norm, unit
@@ -147,13 +148,15 @@ def set_by_field(
     put(P, IRON + 2, IRON, C.z)
     forget(P, FIELD, 2, 0.25)
     forget(P, MAG_DELAY, 1, method.mag_delay_sigma**2)
-    for k in range(SCALE, SCALE + 9):
-        forget(P, k, 1, method.initial_scale**2)
+    forget(P, SCALE, 9, expected_now(P, method.initial_scale) ** 2)
+    scale = scale_before(P)
+    if scale.x != ZERO or scale.y != ZERO or scale.z != ZERO:
+        expect_as_learned(P)
     forget_lengths(P)
     field = Vec3(0.0, sqrt(e.x * e.x + e.y * e.y), e.z)
     spread = max(min(now.spread, shown.spread), trace(C))
     known = Sensor(
-        scale_before(P), now.velocity, field, iron, method.mag_delay, now.acc_delay, length, spread, now.wander,
+        scale, now.velocity, field, iron, method.mag_delay, now.acc_delay, length, spread, now.wander,
         now.acc_bias, now.acc_scale,
     )  # fmt: skip
     return known, turn

@@ -29,15 +29,20 @@ def expect_more(P: Floats, sigma: float) -> None:
     That they are 0 ± σ was the first measurement. To have expected ± 2σ is one more, of a negative variance. What passes for
     a larger A may be another bias: that is made less sure as well, for the two to be told apart.
     """
-    rounds = float(P[OWN, WIDENED])
-    expected = (sigma * 2.0**rounds) ** 2
-    if rounds == _ROUNDS or sigma == 0.0 or not turned_about_all(P, expected) or not unlikely(P, expected):
+    expected = expected_now(P, sigma) ** 2
+    if P[OWN, WIDENED] == _ROUNDS or sigma == 0.0 or not turned_about_all(P, expected) or not unlikely(P, expected):
         return
     unsure_bias(P, _BIAS**2)
     for k in range(9):
         correct_one(P, SCALE + k, -float(P[SENSOR, k]), -4.0 / 3.0 * expected)
-    P[OWN, WIDENED] = rounds + 1.0
+    P[OWN, WIDENED] += 1.0
     P[OWN, _SAID] = 0.0
+
+
+@compiled
+def expected_now(P: Floats, sigma: float) -> float:
+    """σ of an element of A before anything was measured: *sigma*, doubled as often as it was."""
+    return sigma * float(2.0 ** P[OWN, WIDENED])
 
 
 @compiled
@@ -79,5 +84,5 @@ def unlikely(P: Floats, expected: float) -> bool:
 
 @compiled
 def expect_as_learned(P: Floats) -> None:
-    """A is that of another recording of the sensor, and no longer what was expected of any: all elements are judged."""
+    """A is what it was found to be before, and no longer what was expected of any sensor: all elements are judged."""
     P[OWN, _JUDGED] = _ALL
