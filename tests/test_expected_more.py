@@ -109,10 +109,12 @@ def turned(P: Floats) -> Floats:
 def test_not_by_turns_about_one_axis() -> None:
     """What goes round about up is pushed across its way, and follows that as it would another scale."""
     P = memory(0.003)
-    P[SENSOR, :9] = 0.02
-    P[SCALE + 8, SCALE + 8] *= 0.01
+    for k in (2, 5, 8):
+        P[SENSOR, k], P[SCALE + k, SCALE + k] = 0.02, 0.01 * 0.003**2
     expect_more(P, 0.003)
     assert P[OWN, WIDENED] == 0.0
+    P = memory(0.003)
+    P[SENSOR, :9] = 0.02
     expect_more(turned(P), 0.003)
     assert P[OWN, WIDENED] == 1.0
 

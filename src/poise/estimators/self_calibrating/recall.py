@@ -33,7 +33,7 @@ _ACC, _ACC_VARIANCES, _LAST = (
     32,
 )  # and behind what watch.py keeps there: the accelerometer's bias (3) and scale, and P of these
 
-_YOUNGER, _OLDER = WIDENED + 3, WIDENED + 4  # in the row OWN: how often σ of A had been doubled
+_YOUNGER, _OLDER = WIDENED + 5, WIDENED + 6  # in the row OWN: how often σ of A had been doubled
 
 
 @compiled

@@ -13,11 +13,11 @@ from poise.estimators.self_calibrating.model import OWN, SCALE, SENSOR, WIDENED,
 from poise.estimators.self_calibrating.watch import unsure_bias
 from poise.math.compiled import compiled
 
-_EVIDENCE = 3.0  # log of how much likelier all that was measured is: twenty times
+_EVIDENCE = 1.0  # log of how much likelier what was measured is by each column: twenty times by all three
 _ROUNDS = 2.0  # four times as much as was expected
-_KNOWN, _UNTOLD = 0.25, 0.9  # of the variance that was expected: below and above that
+_KNOWN = 0.25  # of the variance that was expected
 _BIAS = radians(0.3)  # rad/s: what of the evidence may be another bias
-# In the row OWN, behind how often σ was doubled (WIDENED): which elements have been judged, a bit each, and what they said.
+# In the row OWN, behind how often σ was doubled (WIDENED): which elements have been judged, a bit each, and what they said (3).
 _JUDGED, _SAID = WIDENED + 1, WIDENED + 2
 _ALL = 0x1FF
 
@@ -30,13 +30,14 @@ def expect_more(P: Floats, sigma: float) -> None:
     a larger A may be another bias: that is made less sure as well, for the two to be told apart.
     """
     expected = expected_now(P, sigma) ** 2
-    if P[OWN, WIDENED] == _ROUNDS or sigma == 0.0 or not turned_about_all(P, expected) or not unlikely(P, expected):
+    if P[OWN, WIDENED] == _ROUNDS or sigma == 0.0 or not unlikely(P, expected):
         return
     unsure_bias(P, _BIAS**2)
     for k in range(9):
         correct_one(P, SCALE + k, -float(P[SENSOR, k]), -4.0 / 3.0 * expected)
     P[OWN, WIDENED] += 1.0
-    P[OWN, _SAID] = 0.0
+    for column in range(3):
+        P[OWN, _SAID + column] = 0.0
 
 
 @compiled
@@ -46,40 +47,34 @@ def expected_now(P: Floats, sigma: float) -> float:
 
 
 @compiled
-def turned_about_all(P: Floats, expected: float) -> bool:
-    """Whether each column of A, that of a turn about one axis, has begun to show.
-
-    What goes round and round about up is pushed across its way, and that passes for a turn about another axis.
-    """
-    most = 0.0
-    for j in range(SCALE, SCALE + 3):
-        most = max(most, min(P[j, j], P[j + 3, j + 3], P[j + 6, j + 6]))
-    return most <= _UNTOLD * expected
-
-
-@compiled
 def unlikely(P: Floats, expected: float) -> bool:
     """Whether all that was measured is much likelier with 2σ than with σ, whose square was *expected* (eq. 39).
 
-    An element that has become known without that is judged: if it changes later on, something else has.
+    Each column of A, that of turns about one axis, has to speak for it: a gyroscope is of one make, and what passes for
+    another scale where something only goes round, as a push across the way does, shows in some of them. An element that has
+    become known without that is judged: if it changes later on, something else has.
     """
     more = 0.75 / expected
-    evidence, judged = float(P[OWN, _SAID]), int(P[OWN, _JUDGED])
-    known, said = judged, evidence
-    for k in range(9):
-        if judged >> k & 1:
-            continue
-        error = float(P[SENSOR, k]) + P[X, SCALE + k]
-        variance = min(float(P[SCALE + k, SCALE + k]), expected)
-        share = 1.0 - more * variance
-        own = 0.5 * (error * error * more / share - log(4.0 * share))
-        evidence += own
-        if variance < _KNOWN * expected:
-            known, said = known | 1 << k, said + own
-    if evidence > _EVIDENCE:
-        return True
-    P[OWN, _JUDGED], P[OWN, _SAID] = known, said
-    return False
+    judged = int(P[OWN, _JUDGED])
+    known, all_speak = judged, True
+    for column in range(3):
+        said = float(P[OWN, _SAID + column])
+        evidence = said
+        for row in range(3):
+            k = 3 * row + column
+            if judged >> k & 1:
+                continue
+            error = float(P[SENSOR, k]) + P[X, SCALE + k]
+            variance = min(float(P[SCALE + k, SCALE + k]), expected)
+            share = 1.0 - more * variance
+            own = 0.5 * (error * error * more / share - log(4.0 * share))
+            evidence += own
+            if variance < _KNOWN * expected:
+                known, said = known | 1 << k, said + own
+        P[OWN, _SAID + column] = said
+        all_speak = all_speak and evidence > _EVIDENCE
+    P[OWN, _JUDGED] = known
+    return all_speak
 
 
 @compiled
