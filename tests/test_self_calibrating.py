@@ -215,7 +215,7 @@ def unsettled(attitude: poise.Attitude) -> NDArray[np.bool_]:
 @pytest.mark.parametrize(
     ("name", "axis", "doubted"),
     [
-        ("01", (0.0, 0.0, 1.0), False),  # told from a larger A, of which little is known by then, without a doubt
+        ("01", (0.0, 0.0, 1.0), False),  # little of A is known by then: for a minute it passes for a larger one
         ("05", (0.6, 0.64, 0.48), True),
         ("25", (0.0, 0.6, 0.8), True),
     ],

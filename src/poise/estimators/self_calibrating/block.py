@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from poise.estimators.self_calibrating.another_field import forget_field, forget_seen, look_at_field
 from poise.estimators.self_calibrating.covariance import correct, correct_one, enter_block, forget, grow, symmetrise
 from poise.estimators.self_calibrating.delay import expected_delay
+from poise.estimators.self_calibrating.expected_scale import expect_more
 from poise.estimators.self_calibrating.first_block import begun_at, in_motion, turned_sums
 from poise.estimators.self_calibrating.iron import ANOTHER_WAY, forget_lengths
 from poise.estimators.self_calibrating.leans import TILTED, UNDER_WAY, go_on_under_way, put_rested, take_correction
@@ -61,7 +62,6 @@ from poise.estimators.self_calibrating.watch import (
     turned_away,
     turns_alone,
 )
-from poise.estimators.self_calibrating.wider import expect_more
 from poise.math.compiled import compiled
 from poise.math.matrices import Mat3, matrix, transpose
 from poise.math.quaternions import conjugate, exp, log, normalize

@@ -9,6 +9,7 @@ from math import atan2, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 from poise.estimators.self_calibrating.covariance import forget
+from poise.estimators.self_calibrating.expected_scale import expect_as_learned, expected_now
 from poise.estimators.self_calibrating.model import (
     BEGAN,
     COLUMNS,
@@ -26,7 +27,6 @@ from poise.estimators.self_calibrating.model import (
 )
 from poise.estimators.self_calibrating.recall import scale_before
 from poise.estimators.self_calibrating.unproven import ANY, VAGUE, trace
-from poise.estimators.self_calibrating.wider import expect_as_learned, expected_now
 from poise.math.compiled import compiled
 from poise.math.matrices import Mat3
 from poise.math.vectors import ZERO, Vec3, dot, norm, unit

@@ -10,6 +10,7 @@ import numpy as np
 from poise.data.learned import Learned, named
 from poise.errors import MethodError
 from poise.estimators.self_calibrating.covariance import forget
+from poise.estimators.self_calibrating.expected_scale import expect_as_learned
 from poise.estimators.self_calibrating.model import (
     ACC_BIAS,
     ACC_DELAY,
@@ -30,7 +31,6 @@ from poise.estimators.self_calibrating.model import (
     three,
 )
 from poise.estimators.self_calibrating.unproven import VAGUE, narrow, trace
-from poise.estimators.self_calibrating.wider import expect_as_learned
 from poise.math.compiled import compiled
 from poise.math.matrices import I3, Mat3
 from poise.math.vectors import ZERO, Vec3, norm

@@ -40,7 +40,9 @@ H, X, ROOM = 29, 30, 31  # of a correction: what is measured of the errors, thei
 TURNED = 32  # three rows: S_A = Σ R[:, i] g_j dt, column 3 i + j
 SUMS, SENSOR, KEPT, LENGTHS, OPEN, TURNS = 35, 38, 39, 41, 42, 43  # two rows keep what was known before: recall.py
 OWN = 44  # what delay.py keeps of the accelerometer's own interval
-WIDENED = 3  # behind that: how often wider.py has doubled what was expected of A, and what it has judged of it
+# Behind that: how often expected_scale.py has doubled what was expected of A, what it has judged of it (4), and how often it
+# had been doubled when the two of recall.py were kept.
+WIDENED = 3
 ROWS, COLUMNS = 45, 32
 # iron.py keeps, behind the sums of the second row, a block's sums of m (3) and |m|², the turn that the heading was set by, and
 # the m (3) of the last block that was taken. In the row of lengths, behind the means: how often an iron was found, the seconds
@@ -57,7 +59,7 @@ UNPROVEN, BESIDE, MEAN, SQUARE, SEEN, CONFIRMED, BY_FIND, AGREED = 9, 10, 13, 16
 # Behind that, where a smoother asked for it, one entry a block: P's rows of ε and bias after the corrections, what was
 # injected, what the block added up, and each correction's h and P h. Column 29 of the entry's rows holds single numbers.
 ENTRIES, ENTRY = ROWS, 40
-INJECTED, ADDED, CORRECTIONS, MOST = 6, 7, 10, 15  # six in motion, and nine that wider.py adds; nine at rest
+INJECTED, ADDED, CORRECTIONS, MOST = 6, 7, 10, 15  # six in motion, and nine that expected_scale.py adds; nine at rest
 ONE = SIZE  # the column of single numbers
 # What became, after a block, of what was known.
 GOES_ON, BEGUN_ANEW, ANOTHER_BIAS, ANOTHER_IRON, ANOTHER_NORTH, ANOTHER_VELOCITY = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0

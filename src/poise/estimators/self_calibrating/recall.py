@@ -32,7 +32,6 @@ _ACC, _ACC_VARIANCES, _LAST = (
     28,
     32,
 )  # and behind what watch.py keeps there: the accelerometer's bias (3) and scale, and P of these
-
 _YOUNGER, _OLDER = WIDENED + 5, WIDENED + 6  # in the row OWN: how often σ of A had been doubled
 
 

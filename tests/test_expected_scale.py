@@ -14,6 +14,7 @@ import poise
 from data_files import data_path
 from helpers import for_all
 from poise.estimators.self_calibrating.covariance import correct, forget
+from poise.estimators.self_calibrating.expected_scale import expect_as_learned, expect_more
 from poise.estimators.self_calibrating.model import (
     COLUMNS,
     OWN,
@@ -28,7 +29,6 @@ from poise.estimators.self_calibrating.model import (
 )
 from poise.estimators.self_calibrating.recall import begin_memory, recall
 from poise.estimators.self_calibrating.watch import unsure_bias
-from poise.estimators.self_calibrating.wider import expect_as_learned, expect_more
 from poise.simulation import PERFECT, Triad, forearm, measure
 
 Floats = NDArray[np.float64]
